@@ -1,0 +1,93 @@
+"""What the page shows, gathered from the results folder: for each case the result, rows and snapshots of each solver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from cupel.comparison import Row, fill_solver_references, power_trend_rows, rows_at
+from cupel.layout import CANONICAL_CASES, SOLVERS, ResultPlace, places
+from cupel.measures.elements import Series, read_series
+from cupel.measures.registry import MeasureError
+
+
+@dataclass
+class Run:
+    """One solver's part of a case; `result` is None where there is none that can be trusted."""
+
+    place: ResultPlace
+    result: dict | None
+    rows: list[Row]
+    series: Series | None = None
+
+    @property
+    def solver(self) -> str:
+        return self.place.solver
+
+    @property
+    def status(self) -> str:
+        return self.result["status"] if self.result else "missing"
+
+
+@dataclass
+class Case:
+    """A case of the page with its runs, in the order of solvers."""
+
+    name: str
+    runs: list[Run] = field(default_factory=list)
+
+    @property
+    def settings(self) -> dict:
+        """The resolved case, from the first result that has it; empty if none has."""
+        return next((run.result["settings"] for run in self.runs if run.result), {})
+
+    @property
+    def title(self) -> str:
+        return self.settings.get("title", self.name)
+
+    @property
+    def shown(self) -> list[Run]:
+        """Runs that have snapshots to show."""
+        return [run for run in self.runs if run.series is not None]
+
+    @property
+    def assumed(self) -> list[dict]:
+        return self.settings.get("assumed", [])
+
+    @property
+    def power(self) -> float | None:
+        laser = self.settings.get("laser")
+        return laser["power"] if laser else None
+
+
+def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case], list[Row]]:
+    """Cases and the rows that compare several of them.
+
+    `names` None: the canonical cases, and every other that has a result of this variant.
+    """
+    found = places(root, variants=[variant])
+    if names is None:
+        names = [*CANONICAL_CASES, *sorted({place.case for place in found} - set(CANONICAL_CASES))]
+    cases = []
+    for name in names:
+        fill_solver_references(root, name, variant)
+        others = sorted({place.solver for place in found if place.case == name} - set(SOLVERS))
+        case = Case(name)
+        for solver in (*SOLVERS, *others):
+            place = ResultPlace(root, name, solver, variant)
+            result, rows = rows_at(place)
+            case.runs.append(Run(place, result, rows, snapshots(place, result)))
+        cases.append(case)
+    results = [run.result for case in cases for run in case.runs if run.result]
+    return cases, power_trend_rows(results)
+
+
+def snapshots(place: ResultPlace, result: dict | None) -> Series | None:
+    """The snapshots of a result; None if it has none that can be read."""
+    if result is None or not (place.folder / "fields" / "fields.pvd").exists():
+        return None
+    resolved = result["settings"].get("surrounding", {}).get("resolved", True)
+    try:
+        return read_series(place.folder, fraction_when_absent=None if resolved else 1.0)
+    except MeasureError:
+        return None

@@ -1,0 +1,167 @@
+"""The commands. Each reads as the list of what it does; the work is in the modules beside this one."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import sys
+from enum import Enum
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+
+from . import cases as case_files
+from . import testing
+from .comparison import fill_solver_references
+from .display import make_display
+from .errors import CupelError
+from .jobs import Job
+from .layout import CANONICAL_CASES, LEVELS, SOLVERS, ResultPlace, results_root
+from .runner import Runner
+
+app = typer.Typer(
+    name="cupel", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
+    help="Verification and benchmark suite for SPH melt-pool simulation. `cupel run` does the main job.",
+)
+
+Level = Enum("Level", {level: level for level in LEVELS}, type=str)
+Solver = Enum("Solver", {name: name for name in (*SOLVERS, "both", "external")}, type=str)
+
+CASES = typer.Argument(None, metavar="[CASE]...", help="Names of cases, or paths of case files; none: the canonical ones.")
+LEVEL = typer.Option(Level.coarse, help="How fine: what it means is in each case file.")
+SOLVER = typer.Option(Solver.both, help="Which solver.")
+RESULTS = typer.Option(None, "--results", metavar="DIR", help="Folder of results; default: results in the repository.")
+QUIET = typer.Option(False, "--quiet", help="Only a line when a run starts and when it ends.")
+VARIANT = typer.Option(None, metavar="NAME", help="Name of the variant; default: the level, with a tag for --set.")
+
+
+@app.command()
+def run(
+    names: Optional[List[str]] = CASES,
+    level: Level = LEVEL,
+    solver: Solver = SOLVER,
+    resume: bool = typer.Option(False, "--resume", help="Go on: keep finished runs, continue from checkpoints."),
+    quiet: bool = QUIET,
+    jobs: Optional[int] = typer.Option(None, min=1, help="Runs side by side; default: one a core."),
+    threads: Optional[int] = typer.Option(None, min=1, help="Threads of each run; default: the cores shared out."),
+    overrides: Optional[List[str]] = typer.Option(None, "--set", metavar="KEY=VALUE", help="Override a value of the case file."),
+    variant: Optional[str] = VARIANT,
+    results: Optional[Path] = RESULTS,
+    external: Optional[Path] = typer.Option(None, "--from", metavar="DIR", help="With --solver external: folder of results to take in."),
+    report: bool = typer.Option(True, help="Write the report at the end."),
+) -> int:
+    """Run cases, measure, compare, and write the report."""
+    root = results_root(results)
+    if solver is Solver.external:
+        from .external import take_in
+
+        count = take_in(external, root)
+        print(f"{count} results taken in from {external}", file=sys.stderr)
+        return write_report(root) if report else 0
+    overrides = list(overrides or [])
+    variant = variant_name(level.value, overrides, variant)
+    resolved = [case_files.resolve(case_files.find_case(name), level.value, overrides) for name in names or CANONICAL_CASES]
+    solvers = SOLVERS if solver is Solver.both else (solver.value,)
+    cores = len(os.sched_getaffinity(0))
+    slots = min(jobs or cores, len(resolved) * len(solvers))
+    work = [
+        Job(ResultPlace(root, case["name"], name, variant), case, threads=threads or max(1, cores // slots), resume=resume)
+        for case in resolved for name in solvers
+    ]
+    interrupted = Runner(work, slots, make_display(quiet)).run()
+    for case in resolved:
+        fill_solver_references(root, case["name"], variant)
+    if interrupted:
+        print("cupel: interrupted; go on with --resume", file=sys.stderr)
+        return 130
+    bad = [job for job in work if not job.good]
+    if report:
+        write_report(root, sorted({job.place.case for job in work}), variant)
+    if bad:
+        raise CupelError(f"{len(bad)} of {len(work)} runs did not complete: {', '.join(str(job.place) for job in bad)}")
+    return 0
+
+
+@app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
+def test(context: typer.Context) -> int:
+    """Run every test: the C++ ones, then the Python ones (further arguments go to pytest)."""
+    return testing.run_all(context.args)
+
+
+@app.command()
+def check(
+    names: Optional[List[str]] = CASES,
+    level: Level = LEVEL,
+    solver: Solver = SOLVER,
+    variant: Optional[str] = VARIANT,
+    results: Optional[Path] = RESULTS,
+    junit: Optional[Path] = typer.Option(None, metavar="FILE", help="JUnit XML; default: check.xml in the results folder."),
+) -> int:
+    """Judge results against their references; the exit status says whether all is well."""
+    from .check import check_results
+
+    root = results_root(results)
+    wanted = [case_files.find_case(name).parent.name for name in names or CANONICAL_CASES]
+    solvers = SOLVERS if solver is Solver.both else (solver.value,)
+    return check_results(root, wanted, solvers, variant or level.value, junit or root / "check.xml")
+
+
+@app.command()
+def report(
+    names: Optional[List[str]] = typer.Argument(None, metavar="[CASE]...", help="Cases; none: all that have results."),
+    variant: Optional[str] = typer.Option(None, metavar="NAME", help="Variant; default: coarse."),
+    results: Optional[Path] = RESULTS,
+) -> int:
+    """Write the report again from results; prints its path."""
+    root = results_root(results)
+    return write_report(root, list(names) if names else None, variant or "coarse")
+
+
+@app.command("cases")
+def list_cases(results: Optional[Path] = RESULTS) -> int:
+    """List the cases: what each is, its tolerances, its cost."""
+    from .listing import print_cases
+
+    print_cases(results)
+    return 0
+
+
+@app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True}, add_help_option=False)
+def bed(context: typer.Context) -> int:
+    """Make the powder bed of a case again from its table of grains (./cupel bed --help)."""
+    from . import bed as powder_bed
+
+    return powder_bed.main(context.args) or 0
+
+
+@app.command()
+def schema(
+    of_result: bool = typer.Option(False, "--result", help="The schema of result.json instead of case files."),
+) -> int:
+    """Print the JSON schema of case files or of results."""
+    from .results import SCHEMA_FILE
+
+    print(SCHEMA_FILE.read_text().rstrip() if of_result else case_files.case_schema().rstrip())
+    return 0
+
+
+def variant_name(level: str, overrides: list[str], choice: str | None) -> str:
+    """The variant's name: the choice, or the level, with a tag that tells different overrides apart."""
+    if choice is not None:
+        if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.+-]*", choice):
+            raise CupelError(f"--variant '{choice}': use letters, digits, and _ . + - after the first", status=2)
+        return choice
+    if not overrides:
+        return level
+    return f"{level}-{hashlib.sha256(chr(10).join(sorted(overrides)).encode()).hexdigest()[:6]}"
+
+
+def write_report(root: Path, names: list[str] | None = None, variant: str = "coarse") -> int:
+    """Writes the report page and prints its path."""
+    from reports.page import write_page
+
+    page = write_page(root, names, variant)
+    print(page)
+    return 0

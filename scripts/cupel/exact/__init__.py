@@ -1,0 +1,1 @@
+"""Exact solutions that measures and cases are judged against; each file states its source, symbols and units."""

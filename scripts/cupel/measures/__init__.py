@@ -1,0 +1,13 @@
+"""Measures: the same code for particles and for cells. README.md defines each; a new one is imported here."""
+
+from . import contact_angle, fused_section, ledgers, melt_pool, return_flow, volume
+from .elements import Elements, Series, read_elements, read_series
+from .measuring import measure
+from .registry import MeasureError, Reading, known_measures, measure_of_run, measure_of_snapshot
+from .snapshot import Snapshot
+
+__all__ = [
+    "Elements", "MeasureError", "Reading", "Series", "Snapshot", "known_measures", "measure", "measure_of_run",
+    "measure_of_snapshot", "read_elements", "read_series",
+    "contact_angle", "fused_section", "ledgers", "melt_pool", "return_flow", "volume",
+]

@@ -1,0 +1,132 @@
+"""Thermocapillary return flow: how far the velocity profile is from the exact one (physics.md, verification.md).
+
+    u(eta) = (tau H/4 mu)(3 eta^2 - 2 eta),  eta = (z - z_bottom)/H,  tau = d(sigma)/dT dT/dx (with its sign)
+
+Elements of the primary material (fraction > 1/2) in the middle third of the layer's length, each with its own velocity at
+its own height:
+
+    profile_error   sqrt( sum V (u_x - u)^2 / sum V ) / |tau H/4 mu|
+    surface_speed   velocity at eta = 1 in the direction that Marangoni stress drives, from a parabola fitted to eta > 1/2
+    zero_crossing   the height eta where the layer-averaged velocity turns round (2/3 in the exact flow)
+
+H is the height of the liquid body in the case, not of the liquid as it deforms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..exact import return_flow as exact
+from .registry import MeasureError, Reading, measure_of_snapshot
+from .snapshot import Snapshot, look_up, primary_bodies, primary_material
+
+
+@dataclass(frozen=True)
+class Layer:
+    """The layer of a case: bottom, depth, ends of its length (m), stress along x (N/m^2), viscosity (Pa s)."""
+
+    bottom: float
+    depth: float
+    begin: float
+    end: float
+    stress: float
+    viscosity: float
+
+    @property
+    def surface_velocity(self) -> float:
+        return exact.surface_velocity(self.stress, self.depth, self.viscosity)
+
+
+def layer_of(case: dict) -> Layer:
+    """The liquid layer of a resolved case.
+
+    Errors: MeasureError unless there is one box of primary material and a temperature gradient along x.
+    """
+    bodies = primary_bodies(case)
+    if len(bodies) != 1 or bodies[0].get("shape") != "box":
+        raise MeasureError("resolved case: the return flow is known for one box of liquid")
+    material = primary_material(case, "viscosity", "surface_tension_slope")
+    box, domain = bodies[0], case["domain"]
+    bottom = max(box["lower"][2], domain["lower"][2])
+    begin, end = max(box["lower"][0], domain["lower"][0]), min(box["upper"][0], domain["upper"][0])
+    stress = material["surface_tension_slope"] * _gradient(case)
+    if stress == 0.0:
+        raise MeasureError("resolved case: no thermocapillary stress along x; there is no return flow to compare with")
+    return Layer(bottom, min(box["upper"][2], domain["upper"][2]) - bottom, begin, end, stress, material["viscosity"])
+
+
+def _gradient(case: dict) -> float:
+    """dT/dx, K/m: of the end walls' temperatures where heat is solved for and both are given, else the initial one."""
+    domain = case["domain"]
+    walls = [(domain["boundaries"].get(name) or {}).get("temperature") for name in ("x_min", "x_max")]
+    if "heat" in case["physics"] and None not in walls:
+        return (walls[1] - walls[0]) / (domain["upper"][0] - domain["lower"][0])
+    return look_up(case, "initial", "temperature_gradient")[0]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Elements of the middle third: relative height, velocity along x (m/s), weight (their volumes); each (n)."""
+
+    eta: np.ndarray
+    velocity: np.ndarray
+    weight: np.ndarray
+    layer: Layer
+
+
+def middle_profile(snapshot: Snapshot) -> Profile:
+    """The velocity profile of the middle third. Errors: MeasureError if no liquid is there."""
+    layer, elements = layer_of(snapshot.case), snapshot.elements
+    x, z = elements.position[:, 0], elements.position[:, 2]
+    third = (layer.end - layer.begin) / 3.0
+    chosen = (elements.fraction > 0.5) & (x >= layer.begin + third) & (x <= layer.end - third)
+    if not chosen.any():
+        raise MeasureError(f"{elements.source}: no liquid in the middle third of the layer")
+    return Profile((z[chosen] - layer.bottom) / layer.depth, elements.velocity[chosen, 0],
+                   (elements.volume * elements.fraction)[chosen], layer)
+
+
+@measure_of_snapshot("profile_error", unit="1", needs=("velocity",), exact=lambda case: 0.0)
+def profile_error(snapshot: Snapshot) -> Reading:
+    profile = snapshot.once(middle_profile)
+    layer = profile.layer
+    expected = exact.velocity(profile.eta, layer.stress, layer.depth, layer.viscosity)
+    square = np.average((profile.velocity - expected)**2, weights=profile.weight)
+    flux = np.average(profile.velocity, weights=profile.weight) / abs(layer.surface_velocity)
+    return Reading(float(np.sqrt(square) / abs(layer.surface_velocity)), beside={"net_flux_share": float(flux)})
+
+
+@measure_of_snapshot("surface_speed", unit="m/s", needs=("velocity",),
+                     exact=lambda case: abs(layer_of(case).surface_velocity))
+def surface_speed(snapshot: Snapshot) -> Reading:
+    profile = snapshot.once(middle_profile)
+    upper = profile.eta > 0.5
+    if len(np.unique(profile.eta[upper])) < 3:
+        return Reading(None, note="fewer than three heights of elements in the upper half of the layer")
+    eta = profile.eta[upper]
+    design = np.stack([np.ones(len(eta)), eta - 1.0, (eta - 1.0)**2], axis=1)
+    root = np.sqrt(profile.weight[upper])
+    coefficients = np.linalg.lstsq(design * root[:, None], profile.velocity[upper] * root, rcond=None)[0]
+    return Reading(float(coefficients[0] * np.sign(profile.layer.stress)))
+
+
+@measure_of_snapshot("zero_crossing", unit="1", needs=("velocity",), exact=lambda case: 2.0 / 3.0)
+def zero_crossing(snapshot: Snapshot) -> Reading:
+    profile = snapshot.once(middle_profile)
+    layer = profile.layer
+    count = max(int(round(layer.depth / snapshot.case["spacing"])), 3)
+    place = np.clip((profile.eta * count).astype(int), 0, count - 1)
+    weight = np.bincount(place, profile.weight, count)
+    with np.errstate(invalid="ignore"):
+        mean = np.bincount(place, profile.weight * profile.velocity, count) / weight * np.sign(layer.stress)
+        height = np.bincount(place, profile.weight * profile.eta, count) / weight
+    filled = weight > 0.0
+    mean, height = mean[filled], height[filled]
+    turns = np.flatnonzero((mean[:-1] < 0.0) & (mean[1:] >= 0.0))
+    if len(turns) == 0:
+        return Reading(None, note="the flow does not turn round over the depth")
+    low = turns[-1]
+    share = -mean[low] / (mean[low + 1] - mean[low])
+    return Reading(float(height[low] + share * (height[low + 1] - height[low])))

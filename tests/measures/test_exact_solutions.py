@@ -1,0 +1,143 @@
+"""Exact solutions give the numbers of the published or independently computed cases, and satisfy their equations."""
+
+import numpy as np
+import pytest
+from cupel.exact import capillary_wave, oscillating_drop, return_flow, stefan, thermocapillary_drop
+from cupel.exact.laplace import laplace_pressure
+from cupel.exact.moving_gaussian_source import MovingGaussianSource
+from cupel.exact.spherical_cap import Cap
+from scipy.integrate import quad
+
+
+def source(power):
+    return MovingGaussianSource(0.35 * power, 0.15, 80e-6, 6900.0, 780.0, 25.0)
+
+
+@pytest.mark.parametrize("power, width, depth", [(100, 169.0, 55.9), (150, 204.7, 79.5), (200, 233.4, 98.4)])
+def test_moving_source_has_the_tabulated_pool(power, width, depth):
+    found = source(power).pool(1723.0)
+    assert found[0] * 1e6 == pytest.approx(width, abs=0.1)
+    assert found[1] * 1e6 == pytest.approx(depth, abs=0.1)
+
+
+def test_moving_source_agrees_with_adaptive_quadrature():
+    made, alpha, s = source(150.0), 25.0 / (6900.0 * 780.0), 40e-6
+    for x, y, z in ((0.0, 0.0, 0.0), (-80e-6, 30e-6, 0.0), (-200e-6, 0.0, 50e-6), (60e-6, -20e-6, 10e-6)):
+        def integrand(w):
+            t = w * w
+            v = s**2 + 2 * alpha * t
+            return 2 / np.sqrt(np.pi * alpha) * np.exp(-z**2 / (4 * alpha * t) - ((x + 0.15 * t)**2 + y**2) / (2 * v)) / (2 * np.pi * v)
+        value = sum(quad(integrand, *ends, epsrel=1e-10)[0] for ends in ((1e-12, 0.01), (0.01, 0.1), (0.1, 2.0)))
+        expected = 300.0 + 0.35 * 150.0 / (6900.0 * 780.0) * value
+        assert float(made.temperature(x, y, z)) == pytest.approx(expected, rel=1e-6)
+
+
+def test_moving_source_too_weak_to_melt_has_no_pool():
+    assert source(10.0).pool(1723.0) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("superheat, beta", [(100.0, 0.37864), (300.0, 0.60693), (1000.0, 0.92830)])
+def test_stefan_coefficients_of_304l(superheat, beta):
+    assert stefan.front_coefficient(780.0 * superheat / 247000.0) == pytest.approx(beta, abs=1e-5)
+
+
+def test_stefan_front_moves_by_the_heat_that_reaches_it():
+    beta, alpha, t = stefan.front_coefficient(0.9), 3.4e-6, 2e-3
+    front = stefan.front(t, beta, alpha)
+    step = 1e-5 * front
+    slope = (1723.0 - stefan.temperature(front - step, t, beta, alpha, 2023.0, 1723.0)) / step
+    speed = stefan.front(t, beta, alpha) / (2.0 * t)
+    # rho L d(front)/dt = -k dT/dx with St = c (T_wall - T_m)/L = 0.9
+    assert speed == pytest.approx(-alpha * slope * 0.9 / 300.0, rel=1e-4)
+    assert stefan.temperature(0.0, t, beta, alpha, 2023.0, 1723.0) == pytest.approx(2023.0)
+    assert stefan.temperature(2.0 * front, t, beta, alpha, 2023.0, 1723.0) == 1723.0
+
+
+def test_return_flow_has_no_net_flux_turns_at_two_thirds_and_carries_the_stress():
+    eta = np.linspace(0.0, 1.0, 20001)
+    u = return_flow.velocity(eta, -0.2, 1e-3, 0.05)
+    assert np.trapz(u, eta) == pytest.approx(0.0, abs=1e-9)
+    assert return_flow.velocity(2.0 / 3.0, -0.2, 1e-3, 0.05) == pytest.approx(0.0, abs=1e-15)
+    assert u[-1] == pytest.approx(-0.2 * 1e-3 / (4 * 0.05)) == return_flow.surface_velocity(-0.2, 1e-3, 0.05)
+    assert 0.05 * (u[-1] - u[-2]) / ((eta[1] - eta[0]) * 1e-3) == pytest.approx(-0.2, rel=1e-3)
+
+
+def test_cap_of_45_degrees_has_the_tabulated_sizes():
+    cap = Cap.of_content(4.0 / 3.0 * np.pi, np.pi / 4.0)
+    assert (cap.base_radius, cap.height, cap.radius) == pytest.approx((1.8261, 0.7564, 2.5825), abs=5e-5)
+
+
+@pytest.mark.parametrize("degrees", [5, 30, 60, 90, 135, 175])
+def test_two_dimensional_cap_has_the_tabulated_radius(degrees):
+    theta = np.radians(degrees)
+    cap = Cap.of_content(np.pi * 0.3**2, theta, 2)
+    assert cap.radius / 0.3 == pytest.approx((theta / np.pi - np.sin(theta) * np.cos(theta) / np.pi)**-0.5)
+    assert cap.base_radius / cap.height == pytest.approx(1.0 / np.tan(theta / 2.0))
+
+
+def test_cap_of_180_degrees_is_a_ball_and_other_angles_are_refused():
+    assert Cap(2.0, np.pi, 3).content == pytest.approx(4.0 / 3.0 * np.pi * 8.0)
+    assert Cap(2.0, np.pi, 2).content == pytest.approx(4.0 * np.pi)
+    with pytest.raises(ValueError, match="no cap"):
+        Cap(1.0, 0.0)
+
+
+def test_laplace_pressure_of_the_304l_drop_is_24_kpa():
+    assert laplace_pressure(1.2, 100e-6, 3) == pytest.approx(24e3)
+    assert laplace_pressure(1.2, 100e-6, 2) == pytest.approx(12e3)
+
+
+def test_drop_of_304l_oscillates_in_168_microseconds():
+    omega = oscillating_drop.frequency(1.2, 6900.0, 100e-6)
+    assert 2.0 * np.pi / omega * 1e6 == pytest.approx(168.4, abs=0.05)
+    assert oscillating_drop.decay_rate(1e-6, 1e-4, 2, 3) == pytest.approx(5.0 * 1e-6 / 1e-8)
+
+
+def test_viscous_drop_in_two_dimensions_has_the_tabulated_mode():
+    omega, decay = oscillating_drop.viscous_mode_2d(1.0, 1.0, 1.0, 0.05)
+    assert omega == pytest.approx(2.42587, abs=1e-5)
+    assert decay == pytest.approx(0.177334, abs=1e-6)
+
+
+@pytest.mark.parametrize("mode", [2, 3, 4])
+def test_viscous_mode_tends_to_the_one_of_small_viscosity(mode):
+    omega, decay = oscillating_drop.viscous_mode_2d(1.0, 1.0, 1.0, 1e-6, mode)
+    assert omega == pytest.approx(oscillating_drop.frequency(1.0, 1.0, 1.0, mode, 2), rel=1e-4)
+    assert decay == pytest.approx(oscillating_drop.decay_rate(1e-6, 1.0, mode, 2), rel=0.01)
+
+
+def test_viscous_mode_scales_with_units():
+    omega, decay = oscillating_drop.viscous_mode_2d(1.2, 6900.0, 1e-4, 0.05 * np.sqrt(1.2 * 6900.0 * 1e-4))
+    unit = np.sqrt(1.2 / (6900.0 * 1e-12))
+    assert (omega / unit, decay / unit) == pytest.approx((2.42587, 0.177334), rel=1e-5)
+
+
+WAVE = (1.0, 1.0, 1.0, np.sqrt(1.0 / 3000.0))
+
+
+def test_capillary_wave_has_the_tabulated_mode():
+    omega, decay = capillary_wave.normal_mode(*WAVE)
+    assert omega == pytest.approx(15.5366, abs=1e-4)
+    assert decay == pytest.approx(1.2185, abs=1e-4)
+    # and satisfies its relation
+    s, nu, k = complex(-decay, omega), WAVE[3], 2.0 * np.pi
+    left = (s + 2 * nu * k**2)**2 + capillary_wave.inviscid_frequency(*WAVE[:3])**2
+    assert abs(left - 4 * nu**2 * k**3 * np.sqrt(k**2 + s / nu)) < 1e-9 * abs(left)
+
+
+def test_released_wave_starts_at_rest_and_ends_in_the_normal_mode():
+    assert capillary_wave.amplitude(np.array([0.0]), *WAVE)[0] == pytest.approx(1.0, abs=1e-12)
+    t = np.array([1e-6, 1e-5])
+    early = (1.0 - capillary_wave.amplitude(t, *WAVE)) * 2.0 / t**2
+    assert early == pytest.approx((2.0 * np.pi)**3, rel=1e-3)
+    omega, decay = capillary_wave.normal_mode(*WAVE)
+    t = np.linspace(0.8, 2.5, 400)
+    a = capillary_wave.amplitude(t, *WAVE) * np.exp(decay * t)
+    basis = np.stack([np.cos(omega * t), np.sin(omega * t)], axis=1)
+    residual = a - basis @ np.linalg.lstsq(basis, a, rcond=None)[0]
+    assert np.abs(residual).max() < 0.02
+
+
+def test_unbounded_thermocapillary_drop_of_ma_and_bothe():
+    speed = thermocapillary_drop.migration_velocity(-0.002, 200.0, 1.44e-3, 1.2e-6, 2.4e-6, 0.012, 0.024)
+    assert speed / 0.024 == pytest.approx(0.2286, abs=5e-5)   # toward the hot side

@@ -1,0 +1,155 @@
+#include "output/vtk_series.hpp"
+
+#include <cmath>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include "output_fixture.hpp"
+
+namespace cupel::test
+{
+
+namespace
+{
+
+constexpr Index count = 1000;
+
+vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& file)
+{
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return reader->GetOutput();
+}
+
+}  // namespace
+
+class VtkFiles : public OutputTest
+{
+protected:
+    void SetUp() override
+    {
+        OutputTest::SetUp();
+        register_fields(particles);
+        fill_particles(particles, 2);
+    }
+
+    Particles particles{count};
+};
+
+TEST_F(VtkFiles, AllButTheWallsAreReadBackByVtk)
+{
+    write_snapshot(folder / "a.vtp", particles, 0.25, some_provenance());
+    const auto data = read(folder / "a.vtp");
+    const vtkIdType written = 3 * count / 4;  // the last quarter are walls
+    ASSERT_EQ(data->GetNumberOfPoints(), written);
+    EXPECT_EQ(data->GetNumberOfVerts(), written);
+    EXPECT_EQ(data->GetPoints()->GetDataType(), VTK_DOUBLE);
+    auto* velocity = data->GetPointData()->GetArray("velocity");
+    auto* temperature = data->GetPointData()->GetArray("temperature");
+    auto* fraction = data->GetPointData()->GetArray("fraction");
+    ASSERT_TRUE(velocity && temperature && fraction);
+    EXPECT_EQ(velocity->GetNumberOfComponents(), 3);
+    EXPECT_EQ(temperature->GetDataType(), VTK_FLOAT);
+    for (vtkIdType k = 0; k < written; ++k)
+    {
+        const auto i = static_cast<Index>(k);
+        double point[3];
+        data->GetPoint(k, point);
+        EXPECT_EQ(point[0], particles.position[i].x);
+        EXPECT_EQ(point[2], particles.position[i].z);
+        EXPECT_EQ(velocity->GetComponent(k, 1), static_cast<float>(particles.velocity[i].y));
+        EXPECT_EQ(temperature->GetComponent(k, 0), static_cast<float>(particles.scalar("temperature")[i]));
+        EXPECT_EQ(fraction->GetComponent(k, 0), i < count / 2 ? 1.0 : 0.0);  // the second half is of material 1
+    }
+}
+
+TEST_F(VtkFiles, HoldTheFieldsMarkedForOutputAndNoOther)
+{
+    write_snapshot(folder / "a.vtp", particles, 0.25, some_provenance());
+    const auto data = read(folder / "a.vtp");
+    auto* point_data = data->GetPointData();
+    for (const char* name : {"density", "pressure", "volume", "velocity", "temperature", "surface_normal", "fraction"})
+        EXPECT_TRUE(point_data->HasArray(name)) << name;
+    EXPECT_EQ(point_data->GetNumberOfArrays(), 7);
+}
+
+TEST_F(VtkFiles, BearTimeCodeAndCase)
+{
+    write_snapshot(folder / "a.vtp", particles, 0.25, some_provenance());
+    const auto data = read(folder / "a.vtp");
+    auto* fields = data->GetFieldData();
+    ASSERT_TRUE(fields->GetArray("TimeValue"));
+    EXPECT_EQ(fields->GetArray("TimeValue")->GetComponent(0, 0), 0.25);
+    const auto text = [&](const char* name)
+    {
+        auto* array = vtkStringArray::SafeDownCast(fields->GetAbstractArray(name));
+        return array ? std::string(array->GetValue(0)) : std::string();
+    };
+    EXPECT_EQ(text("code_commit"), "0123456789ab");
+    EXPECT_EQ(text("case_hash"), "d1ce0000d1ce0000");
+    EXPECT_EQ(text("resolved_case"), "{\"name\": \"droplet\"}");
+}
+
+TEST_F(VtkFiles, AreCompressed)
+{
+    for (const auto& field : particles.scalars())
+        std::fill(field->values.begin(), field->values.end(), 1.0);
+    write_snapshot(folder / "a.vtp", particles, 0.0, some_provenance());
+    // 750 particles of 3 doubles and 11 floats are 51 kB; the random positions (18 kB) and vectors (18 kB) hardly shrink.
+    EXPECT_LT(std::filesystem::file_size(folder / "a.vtp"), 45'000U);
+    EXPECT_NE(read_whole(folder / "a.vtp").find("compressor=\"vtkZLibDataCompressor\""), std::string::npos);
+}
+
+TEST_F(VtkFiles, SeriesListsEverySnapshotWithItsTime)
+{
+    VtkSeries series(folder, some_provenance());
+    series.write(particles, 0.0);
+    series.write(particles, 1e-4);
+    const std::string list = read_whole(folder / "fields.pvd");
+    EXPECT_NE(list.find("timestep=\"0\" part=\"0\" file=\"fields_000000.vtp\""), std::string::npos) << list;
+    EXPECT_NE(list.find("timestep=\"0.0001\" part=\"0\" file=\"fields_000001.vtp\""), std::string::npos) << list;
+    EXPECT_EQ(read(folder / "fields_000001.vtp")->GetNumberOfPoints(), 3 * count / 4);
+    EXPECT_THROW(series.write(particles, 0.5e-4), std::logic_error);
+}
+
+TEST_F(VtkFiles, ResumedSeriesDropsWhatCameLaterAndGoesOn)
+{
+    {
+        VtkSeries series(folder, some_provenance());
+        for (const double time : {0.0, 0.1, 0.2, 0.3})
+            series.write(particles, time);
+    }
+    VtkSeries series(folder, some_provenance(), 0.2);
+    EXPECT_EQ(series.size(), 3U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "fields_000003.vtp"));
+    series.write(particles, 0.2);  // again, as the checkpoint was written just before this snapshot
+    EXPECT_EQ(series.size(), 3U);
+    series.write(particles, 0.35);
+    const std::string list = read_whole(folder / "fields.pvd");
+    EXPECT_NE(list.find("timestep=\"0.35\" part=\"0\" file=\"fields_000003.vtp\""), std::string::npos) << list;
+    EXPECT_EQ(list.find("timestep=\"0.3\""), std::string::npos) << list;
+}
+
+TEST_F(VtkFiles, FullDiskLeavesTheSeriesReadable)
+{
+    VtkSeries series(folder, some_provenance());
+    series.write(particles, 0.0);
+    std::string message;
+    {
+        const FileSizeLimit limit(2048);
+        message = message_of<OutputError>([&] { series.write(particles, 0.1); });
+    }
+    EXPECT_TRUE(one_line_with(message, {"fields_000001.vtp", "ulimit -f"}));
+    EXPECT_EQ(series.size(), 1U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "fields_000001.vtp"));
+    EXPECT_EQ(read_whole(folder / "fields.pvd").find("fields_000001"), std::string::npos);
+}
+
+}  // namespace cupel::test
