@@ -1,0 +1,189 @@
+"""From a resolved case to an OpenFOAM case: mesh, start fields, dictionaries. Nothing in it is edited by hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .foam_files import header, scalar_list, write_dictionary, write_field
+from .grid import Grid, make_grid, write_mesh
+from .resolved_case import SIDES, ResolvedCase
+from .volume_fractions import top_of_bodies, volume_fractions
+
+# Numerics of the reference, the same for every case. Reasons: README.md, section Numerics.
+NUMERICS = {
+    "time_step_factor": 1.0,
+    "courant_limit": 0.5,
+    "interface_courant_limit": 0.3,
+    "interface_compression": 1.0,
+    "curvature_smoothing_passes": 2,
+    "curvature_averaging_passes": 1,
+    "mushy_drag_constant": 1e13,
+    "momentum_predictor": False,
+    "pressure_correctors": 3,
+    "temperature_tolerance": 0.01,
+    "energy_iterations": 25,
+}
+NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
+PATCH_TYPES = {"wall": "wall", "symmetry": "symmetryPlane", "open": "patch", "periodic": "cyclic"}
+TEMPERATURE = "[0 0 0 1 0 0 0]"
+
+
+def write_case(case: ResolvedCase, folder: Path) -> Grid:
+    """Write the OpenFOAM case of a resolved case into `folder`; returns its grid.
+
+    Errors: Refused for a bed file that cannot be read.
+    """
+    grid = make_grid(case, top_of_bodies(case))
+    fraction = volume_fractions(case, grid)
+    write_mesh(grid, patch_types(case), folder)
+    _write_start_fields(case, grid, fraction, folder/"0")
+    _write_properties(case, folder)
+    _write_system(folder)
+    return grid
+
+
+def patch_types(case: ResolvedCase) -> dict[str, str]:
+    """OpenFOAM's patch type of each side."""
+    return {side: "empty" if case.is_planar and side.startswith("y") else PATCH_TYPES[case.boundaries[side]["kind"]]
+            for side in SIDES}
+
+
+def start_temperature(case: ResolvedCase, positions: np.ndarray) -> np.ndarray:
+    """Temperature at the start (n,) K at positions (n, 3) m: initial.temperature + gradient . (x - domain.lower)."""
+    initial = case.data["initial"]
+    origin = np.array(case.lower, dtype=float)
+    if case.is_planar:
+        origin[1] = 0.0
+    return initial["temperature"] + (positions - origin) @ np.array(initial["temperature_gradient"], dtype=float)
+
+
+def _boundary(case: ResolvedCase, wall, opening: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Boundary conditions of a field: `wall(side)` and `opening` by kind of side; the rest follow from the patch type."""
+    conditions = {}
+    for side, patch_type in patch_types(case).items():
+        if patch_type == "wall":
+            conditions[side] = wall(side)
+        elif patch_type == "patch":
+            conditions[side] = opening
+        else:
+            conditions[side] = {"type": patch_type}
+    return conditions
+
+
+def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, folder: Path) -> None:
+    wetting = "wetting" in case.physics
+    write_field(folder/"fraction", "volScalarField", "[0 0 0 0 0 0 0]", scalar_list(fraction), _boundary(
+        case,
+        lambda side: {"type": "fixedGradient", "gradient": "uniform 0"} if wetting else {"type": "zeroGradient"},
+        {"type": "inletOutlet", "inletValue": "uniform 0", "value": "uniform 0"}))
+    if "flow" in case.physics:
+        write_field(folder/"U", "volVectorField", "[0 1 -1 0 0 0 0]", "uniform (0 0 0)", _boundary(
+            case,
+            lambda side: {"type": "noSlip"} if case.boundaries[side].get("slip", "no_slip") == "no_slip" else {"type": "slip"},
+            {"type": "pressureInletOutletVelocity", "value": "uniform (0 0 0)"}))
+        write_field(folder/"p_rgh", "volScalarField", "[1 -1 -2 0 0 0 0]", "uniform 0", _boundary(
+            case, lambda side: {"type": "fixedFluxPressure", "value": "uniform 0"},
+            {"type": "totalPressure", "rho": "density", "p0": "uniform 0", "value": "uniform 0"}))
+    if "heat" in case.physics:
+        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
+                    _boundary(case, lambda side: _wall_temperature(case, side), {
+                        "type": "inletOutlet", "inletValue": f"uniform {ambient_temperature(case)!r}",
+                        "value": f"uniform {ambient_temperature(case)!r}"}))
+    elif "marangoni" in case.physics:
+        # frozen: the linear field up to the sides, so that its gradient is exact in the cells along them
+        conditions = {}
+        for side, patch_type in patch_types(case).items():
+            values = scalar_list(start_temperature(case, grid.side_centres(side)))
+            conditions[side] = {"type": "fixedValue", "value": values} if patch_type in ("wall", "patch") else {"type": patch_type}
+        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())), conditions)
+
+
+def _wall_temperature(case: ResolvedCase, side: str) -> dict[str, Any]:
+    temperature = case.boundaries[side].get("temperature")
+    if temperature is None:
+        return {"type": "zeroGradient"}
+    return {"type": "fixedValue", "value": f"uniform {float(temperature)!r}"}
+
+
+def ambient_temperature(case: ResolvedCase) -> float:
+    """Temperature far away [K]."""
+    return float((case.data.get("surrounding") or {}).get("temperature", case.data["initial"]["temperature"]))
+
+
+def _primary_entries(case: ResolvedCase) -> dict[str, Any]:
+    known = ("density", "viscosity", "specific_heat", "specific_heat_solid", "conductivity", "conductivity_solid", "solidus",
+             "liquidus", "latent_heat", "surface_tension", "surface_tension_slope", "surface_tension_reference_temperature",
+             "surface_tension_minimum", "contact_angle", "boiling_temperature", "vaporization_heat", "molar_mass", "emissivity")
+    entries = {"melts": "melting" in case.physics}
+    entries |= {key: float(case.primary[key]) for key in known if key in case.primary}
+    if not entries["melts"] and "specific_heat" in entries:
+        # one state for ever: that of the bodies
+        solid = any(body["state"] == "solid" for body in case.data["bodies"] if body["material"] == case.primary_name)
+        for key in ("specific_heat", "conductivity"):
+            entries[key] = entries[f"{key}_solid"] = entries.get(f"{key}_solid", entries[key]) if solid else entries[key]
+    elif entries["melts"]:
+        for key in ("specific_heat", "conductivity"):
+            entries.setdefault(f"{key}_solid", entries[key])
+        if entries["liquidus"] - entries["solidus"] < NARROWEST_MUSHY_RANGE:
+            middle = 0.5*(entries["solidus"] + entries["liquidus"])
+            entries["solidus"] = middle - 0.5*NARROWEST_MUSHY_RANGE
+            entries["liquidus"] = middle + 0.5*NARROWEST_MUSHY_RANGE
+    return entries
+
+
+def _write_properties(case: ResolvedCase, folder: Path) -> None:
+    surrounding = case.data.get("surrounding") or {}
+    entries: dict[str, Any] = {
+        "physics": case.physics,
+        "primary": _primary_entries(case),
+        "surrounding": {key: float(case.surrounding[key]) for key in ("density", "viscosity", "specific_heat", "conductivity")
+                        if key in case.surrounding},
+        "ambient_temperature": ambient_temperature(case),
+        "ambient_pressure": float(surrounding.get("pressure", 101325.0)),
+        "convection_coefficient": float(surrounding.get("convection_coefficient", 0.0)) if "radiation" in case.physics else 0.0,
+        "end_time": case.end,
+        "output_interval": case.output_interval,
+        "spacing": case.spacing,
+        "numerics": NUMERICS,
+    }
+    if "laser" in case.physics:
+        laser = case.data["laser"]
+        entries["laser"] = {key: float(laser[key]) for key in ("power", "speed", "spot_radius", "absorptivity", "start")}
+        entries["laser"] |= {end: [float(value) for value in laser["path"][end]] + [0.0] for end in ("from", "to")}
+    write_dictionary(folder/"constant"/"cupelProperties", entries)
+    if "gravity" in case.physics:
+        gravity = "(" + " ".join(repr(float(value)) for value in case.data["gravity"]) + ")"
+        (folder/"constant"/"g").write_text(
+            header("uniformDimensionedVectorField", "g") + f"dimensions [0 1 -2 0 0 0 0];\nvalue {gravity};\n")
+
+
+def _write_system(folder: Path) -> None:
+    """Control, schemes and linear solvers: the same for every case."""
+    system = folder/"system"
+    # the solver keeps its own clock: OpenFOAM's end and write times never come
+    write_dictionary(system/"controlDict", {
+        "application": "cupel_foam", "startFrom": "latestTime", "startTime": 0, "stopAt": "endTime", "endTime": 1e30,
+        "deltaT": 1e-9, "writeControl": "timeStep", "writeInterval": 2000000000, "purgeWrite": 0, "writeFormat": "binary",
+        "writePrecision": 17, "writeCompression": "off", "timeFormat": "general", "timePrecision": 12,
+        "runTimeModifiable": False})
+    write_dictionary(system/"fvSchemes", {
+        "ddtSchemes": {"default": "Euler"},
+        "gradSchemes": {"default": "Gauss linear"},
+        "divSchemes": {"default": "Gauss linear", "div(mass_flux,U)": "Gauss limitedLinearV 1",
+                       "div(phi,fraction)": "Gauss vanLeer", "div(compression)": "Gauss linear",
+                       "div(phi,enthalpy)": "Gauss limitedLinear 1"},
+        "laplacianSchemes": {"default": "Gauss linear orthogonal"},
+        "interpolationSchemes": {"default": "linear"},
+        "snGradSchemes": {"default": "orthogonal"}})
+    pressure = {"solver": "PCG", "preconditioner": "DIC", "tolerance": 1e-8, "relTol": 0.01, "maxIter": 500}
+    write_dictionary(system/"fvSolution", {
+        "solvers": {
+            "fraction": {"nLimiterIter": 3},
+            "p_rgh": pressure,
+            "p_rghFinal": pressure | {"relTol": 0.0},
+            "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},
+            "T": {"solver": "PBiCGStab", "preconditioner": "DILU", "tolerance": 1e-12, "relTol": 1e-3}},
+        "PISO": {"pRefCell": 0, "pRefValue": 0}})

@@ -1,0 +1,165 @@
+"""One run: write the case, start the solver, pass its progress on, convert snapshots as they come, write run.json last."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+from . import case_writer, checkpoints, run_record
+from .convert import SnapshotWriter, snapshot_index
+from .errors import Refused
+from .grid import make_grid
+from .resolved_case import ResolvedCase
+from .volume_fractions import top_of_bodies
+
+ROOT = Path(__file__).resolve().parent.parent
+FOAM_SHARE = Path("/usr/share/openfoam")
+
+
+def solver_program() -> Path:
+    """The solver's executable, in the build folder (CUPEL_BUILD overrides <repository>/build).
+
+    Errors: Refused if it is not there.
+    """
+    program = Path(os.environ.get("CUPEL_BUILD", ROOT/"build"))/"bin"/"cupel_foam"
+    if not program.is_file():
+        raise Refused(f"{program}: is not built; run: cmake -S {ROOT} -B {program.parents[1]} && cmake --build {program.parents[1]}")
+    return program
+
+
+def solver_environment() -> dict[str, str]:
+    """Environment of the solver: OpenFOAM's own if it is sourced, else the little that Debian's package needs."""
+    environment = dict(os.environ)
+    environment.setdefault("WM_PROJECT_DIR", str(FOAM_SHARE))
+    environment["FOAM_SIGFPE"] = "false"        # not-a-number is found by the solver's own guards, with place and remedy
+    return environment
+
+
+def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False) -> int:
+    """Run `case` into `output`; returns the exit status (0 completed, 1 stopped, 130 interrupted).
+
+    Errors: Refused before anything is written.
+    """
+    program = solver_program()
+    output = output.resolve()
+    case_folder = output/"checkpoints"
+    if resume:
+        _check_same_case(case, case_folder)
+        start, _ = checkpoints.newest(case_folder)
+        grid = make_grid(case, top_of_bodies(case))
+        _cut_history(case_folder/"history.csv", start)
+    else:
+        try:
+            _clear(output)
+            output.mkdir(parents=True, exist_ok=True)
+            case_folder.mkdir()
+            grid = case_writer.write_case(case, case_folder)
+        except OSError as error:
+            raise Refused(f"{output}: cannot be written: {error.strerror}") from None
+        except Refused:
+            shutil.rmtree(case_folder, ignore_errors=True)
+            raise
+        (case_folder/"resolved.json").write_text(json.dumps(case.data))
+    (output/"run.json").unlink(missing_ok=True)
+    (case_folder/"outcome.json").unlink(missing_ok=True)
+    if threads > 1:
+        print(f"reference_openfoam: runs on one core, not on {threads}", file=sys.stderr)
+    snapshots = SnapshotWriter(case, grid, output/"fields")
+    return _supervise(case, program, output, case_folder, snapshots, append=resume)
+
+
+def _clear(output: Path) -> None:
+    """Remove what an earlier run of this solver left."""
+    for name in ("run.json", "history.csv", "log.txt"):
+        (output/name).unlink(missing_ok=True)
+    for name in ("fields", "checkpoints"):
+        if (output/name).exists():
+            shutil.rmtree(output/name)
+
+
+def _check_same_case(case: ResolvedCase, case_folder: Path) -> None:
+    try:
+        earlier = json.loads((case_folder/"resolved.json").read_text())
+    except (OSError, json.JSONDecodeError):
+        raise Refused(f"{case_folder}: there is no run to go on from; run without --resume") from None
+    if earlier.get("hash") != case.data.get("hash"):
+        raise Refused(f"{case_folder}: belongs to other settings; run without --resume")
+
+
+def _cut_history(path: Path, start: float) -> None:
+    """Drop rows after the checkpoint and a row cut short."""
+    if not path.is_file():
+        return
+    lines = path.read_text().splitlines()
+    columns = lines[0].count(",")
+    kept = [line for line in lines[1:] if line.count(",") == columns and float(line.split(",")[0]) <= start*(1 + 1e-9)]
+    path.write_text("\n".join(lines[:1] + kept) + "\n")
+
+
+def _supervise(case: ResolvedCase, program: Path, output: Path, case_folder: Path, snapshots: SnapshotWriter, append: bool) -> int:
+    """Run the solver in its own session, so that a Ctrl-C reaches it once, through this process."""
+    with open(output/"log.txt", "a" if append else "w", encoding="utf-8") as log:
+        process = subprocess.Popen([str(program), "-case", str(case_folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, errors="replace", env=solver_environment(), start_new_session=True)
+        earlier = {number: signal.signal(number, lambda *_: process.send_signal(signal.SIGTERM))
+                   for number in (signal.SIGINT, signal.SIGTERM)}
+        complaints: list[str] = []
+        listener = threading.Thread(target=_listen, args=(process.stderr, log, complaints))
+        listener.start()
+        try:
+            for line in process.stdout:
+                if line.startswith('{"progress"'):
+                    print(line, end="", flush=True)
+                else:
+                    log.write(line)
+                _convert(case, case_folder, snapshots)
+            status = process.wait()
+        except BaseException:
+            process.kill()
+            process.wait()
+            raise
+        finally:
+            listener.join()
+            for number, handler in earlier.items():
+                signal.signal(number, handler)
+    _convert(case, case_folder, snapshots)
+    if (case_folder/"history.csv").is_file():
+        run_record.copy_beside(case_folder/"history.csv", output/"history.csv")
+    if status == 130:
+        return 130
+    if not (case_folder/"outcome.json").is_file():
+        return _report_failure(case, output, status, complaints)
+    record = run_record.write(case, case_folder/"outcome.json", output)
+    if record["status"] == "stopped":
+        print(f"reference_openfoam: {case.name}: stopped: {record['diagnosis']}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _listen(stream, log, complaints: list[str]) -> None:
+    for line in stream:
+        log.write(line)
+        if line.strip():
+            complaints.append(line.strip())
+
+
+def _report_failure(case: ResolvedCase, output: Path, status: int, complaints: list[str]) -> int:
+    """The solver ended without an outcome: refused by OpenFOAM, or killed."""
+    cause = complaints[0] if complaints else f"killed by signal {-status}" if status < 0 else f"ended with status {status}"
+    print(f"reference_openfoam: {case.name}: the solver gave no result ({cause}); see {output/'log.txt'}", file=sys.stderr)
+    return 1
+
+
+def _convert(case: ResolvedCase, case_folder: Path, snapshots: SnapshotWriter) -> None:
+    """Convert complete time folders that are snapshots and not yet there, then thin the checkpoints out."""
+    for time, folder in checkpoints.complete_folders(case_folder):
+        index = snapshot_index(case, time)
+        if index is not None and not (snapshots.folder/f"fields_{index:06d}.vtu").exists():
+            snapshots.write(folder, index)
+    checkpoints.thin_out(case_folder)

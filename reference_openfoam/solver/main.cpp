@@ -1,0 +1,111 @@
+/// cupel_foam: a volume-of-fluid melting solver on OpenFOAM, the grid-based reference of Cupel's SPH solver.
+///
+/// Usage: cupel_foam -case FOLDER, where FOLDER is a case as reference_openfoam/case_writer.py writes it.
+/// Starts from the newest time in FOLDER. Exit status: 0 completed, 1 stopped, 2 refused, 130 interrupted with a checkpoint.
+#include <cmath>
+#include <iostream>
+
+#include "checkpoint.hpp"
+#include "energy_equation.hpp"
+#include "guards.hpp"
+#include "momentum_equation.hpp"
+#include "outcome.hpp"
+#include "scene.hpp"
+#include "time_step.hpp"
+#include "volume_fraction.hpp"
+
+namespace
+{
+using namespace cupel;
+
+/// The whole run: everything that the scene needs, and the loop over steps.
+int run_scene(Time& clock, const fvMesh& mesh)
+{
+    const Scene scene(IOdictionary(IOobject("cupelProperties", clock.constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)));
+    Fields fields(mesh, scene);
+    autoPtr<InterfaceGeometry> geometry;
+    if (scene.physics.flow) geometry.reset(new InterfaceGeometry(scene, fields));
+    autoPtr<volVectorField> still_gradient;      // without flow the interface stays: ∇α once
+    if (!scene.physics.flow) still_gradient.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields.fraction)));
+    autoPtr<EnergyEquation> energy;
+    if (scene.physics.heat) energy.reset(new EnergyEquation(scene, fields));
+
+    Ledgers ledgers(scene, fields, energy.valid() ? energy.operator->() : nullptr);
+    TimeStep time_step(scene, fields);
+    RunState state;
+    const bool resumed = restore_checkpoint(mesh, ledgers, time_step, state);
+    Outcome outcome(scene, fields, clock.path());
+    const auto checkpoint = [&]()
+    {
+        RunState now = state;
+        now.wall_seconds += outcome.wall_seconds();
+        now.cpu_seconds += outcome.cpu_seconds();
+        write_checkpoint(clock, mesh, ledgers, time_step, now);
+    };
+    EnergyRates rates;
+    if (!resumed) checkpoint();
+    install_stop_signals();
+    outcome.record(0, ledgers, rates, state);
+
+    const scalar almost = 1e-9*scene.end_time;
+    while (clock.value() < scene.end_time - almost)
+    {
+        const scalar next_output = scene.output_interval*(std::floor((clock.value() + almost)/scene.output_interval) + 1);
+        const scalar target = min(next_output, scene.end_time);
+        const scalar step = time_step.next(clock.value(), target);
+        clock.setDeltaT(step, false);
+        ++clock;
+        ++state.steps;
+        try
+        {
+            if (scene.physics.flow) advance_volume_fraction(scene, fields, geometry());
+            if (scene.physics.heat)
+            {
+                rates = energy->advance(scene.physics.flow ? geometry->gradient() : still_gradient());
+                fields.update_peak();
+                ledgers.book_energy(rates, step);
+            }
+            if (scene.physics.flow)
+            {
+                ledgers.book_flow(step);
+                advance_momentum(scene, fields, geometry());
+            }
+            check_fields(scene, fields, time_step, step);
+        }
+        catch (const Diverged& trouble)
+        {
+            outcome.finish("stopped", trouble.what(), ledgers, time_step, state);
+            return 1;
+        }
+        outcome.record(step, ledgers, rates, state);
+        const bool interrupted = stop_requested();
+        if (interrupted || clock.value() >= target - almost) checkpoint();
+        if (interrupted) return 130;
+    }
+    outcome.finish("completed", "", ledgers, time_step, state);
+    return 0;
+}
+}
+
+int main(int argc, char** argv)
+{
+    argList::noFunctionObjects();
+    argList arguments(argc, argv);
+    if (!arguments.checkRootCase()) return 2;
+    FatalError.throwExceptions();
+    FatalIOError.throwExceptions();
+    lduMatrix::debug = 0;                      // no line for each linear solve
+    SolverPerformance<scalar>::debug = 0;
+    SolverPerformance<vector>::debug = 0;
+    try
+    {
+        Time clock(Time::controlDictName, arguments);
+        const fvMesh mesh(IOobject(fvMesh::defaultRegion, clock.timeName(), clock, IOobject::MUST_READ));
+        return run_scene(clock, mesh);
+    }
+    catch (const Foam::error& trouble)
+    {
+        std::cerr << "cupel_foam: " << trouble.message() << std::endl;
+        return 2;
+    }
+}
