@@ -1,0 +1,125 @@
+#include "integrators/flow.hpp"
+
+#include <cmath>
+
+#include "integrators/free_surface_flow.hpp"
+#include "integrators/two_phase_flow.hpp"
+#include "models/artificial_stress.hpp"
+#include "models/artificial_viscosity.hpp"
+#include "models/recoil_pressure.hpp"
+#include "models/wall_extrapolation.hpp"
+
+namespace cupel
+{
+
+namespace
+{
+
+SurfaceTensionLaw surface_tension_law(const Material& liquid)
+{
+    return {liquid.surface_tension.value_or(0.0), liquid.surface_tension_slope.value_or(0.0),
+            liquid.surface_tension_reference_temperature.value_or(0.0), liquid.surface_tension_minimum.value_or(0.0)};
+}
+
+}  // namespace
+
+Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
+    : scene_(scene), particles_(*scene.particles), parameters_(parameters),
+      kernel_(parameters.smoothing_length, scene.dimensions), mobility_{mobility},
+      gravity_{scene.definition.gravity[0], scene.definition.gravity[1], scene.definition.gravity[2]},
+      force_(particles_.add_vector({"force", "N"})), acceleration_(particles_.add_vector({"acceleration", "m/s2"})),
+      tension_(surface_tension_law(scene.materials.front())),
+      with_tension_(scene.definition.requires_physics("surface_tension")),
+      with_marangoni_(scene.definition.requires_physics("marangoni")),
+      with_recoil_(scene.definition.requires_physics("recoil"))
+{
+    if (!scene.definition.requires_physics("gravity"))
+        gravity_ = {};
+    const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
+    if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
+        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
+    if (particles_.has("temperature"))
+        temperature_ = &particles_.scalar("temperature");
+    if (with_marangoni_)
+    {
+        temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
+        correction_ = std::make_unique<CorrectionMatrix>(CorrectionMatrix::register_in(particles_));
+    }
+}
+
+void Flow::extrapolate_to_walls(const Neighbourhood& neighbourhood, bool may_pull)
+{
+    const bool walls = particles_.has("wall_normal");
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
+                  WallExtrapolation{mobility_, particles_.density, gravity_, may_pull,
+                                    walls ? &particles_.vector("wall_normal") : nullptr,
+                                    walls ? &particles_.scalar("wall_free_slip") : nullptr, particles_.pressure,
+                                    particles_.velocity});
+}
+
+void Flow::add_remedies(const Neighbourhood& neighbourhood)
+{
+    const Numerics& numerics = scene_.definition.numerics;
+    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      ArtificialViscosity{mobility_, numerics.artificial_viscosity,
+                                          numerics.artificial_viscosity_beta,
+                                          parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
+                                          particles_.mass, particles_.density, particles_.velocity, force_});
+    if (numerics.artificial_stress > 0.0)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      ArtificialStress{mobility_, numerics.artificial_stress, kernel_(scene_.spacing).value,
+                                       particles_.mass, particles_.density, particles_.pressure, force_});
+}
+
+void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood)
+{
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, *correction_},
+                  ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+    for (const Index i : neighbourhood.moving_particles())
+        temperature_gradient_->set(i, (*correction_)[i] * (*temperature_gradient_)[i]);
+}
+
+void Flow::accelerate(const Neighbourhood& neighbourhood)
+{
+    if (with_marangoni_)
+        find_temperature_gradient(neighbourhood);
+    const Material& liquid = scene_.materials.front();
+    const auto& moving = neighbourhood.moving_particles();
+    const auto count = moving.size();
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m)
+    {
+        const Index i = moving[m];
+        Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
+        if (surface_ && surface_->fields().delta[i] > 0.0)
+        {
+            const SurfaceFields& surface = surface_->fields();
+            const Vector normal = surface.normal[i];
+            const double delta = surface.delta[i];
+            Vector force_density{};
+            if (with_tension_)
+                force_density += surface_tension_force(temperature_ ? tension_((*temperature_)[i])
+                                                                    : tension_.at_reference,
+                                                       surface.curvature[i], normal, delta);
+            if (with_marangoni_)
+                force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
+            if (with_recoil_)
+                force_density += recoil_force(recoil_pressure(liquid, scene_.definition.surrounding->pressure,
+                                                              (*temperature_)[i]),
+                                              normal, delta);
+            acceleration += (1.0 / particles_.density[i]) * force_density;
+        }
+        acceleration_.set(i, acceleration);
+    }
+}
+
+std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
+{
+    if (scene.two_phase)
+        return std::make_unique<TwoPhaseFlow>(scene, parameters, mobility);
+    return std::make_unique<FreeSurfaceFlow>(scene, parameters, mobility);
+}
+
+}  // namespace cupel

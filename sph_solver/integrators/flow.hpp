@@ -1,0 +1,65 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "integrators/neighbourhood.hpp"
+#include "integrators/parameters.hpp"
+#include "integrators/surface_tracker.hpp"
+#include "models/gradient_correction.hpp"
+#include "models/surface_forces.hpp"
+
+namespace cupel
+{
+
+/// Momentum and mass of the liquid: what a step needs to know of either formulation.
+class Flow
+{
+public:
+    virtual ~Flow() = default;
+
+    /// Positions, by the kicked velocities: x ← x + Δt v and whatever the formulation adds.
+    virtual void drift(const Neighbourhood& neighbourhood, double time_step) = 0;
+
+    /// Densities, pressures and accelerations at the new positions. time_step is that of the drift (0 at the start).
+    virtual void evaluate(const Neighbourhood& neighbourhood, double time_step) = 0;
+
+    const VectorField& acceleration() const { return acceleration_; }
+    /// Null where the scene has no force on the surface.
+    const SurfaceTracker* surface() const { return surface_.get(); }
+    const FlowParameters& parameters() const { return parameters_; }
+
+protected:
+    Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
+
+    void extrapolate_to_walls(const Neighbourhood& neighbourhood, bool may_pull);
+    /// Adds the optional pair forces that the case switches on to force_.
+    void add_remedies(const Neighbourhood& neighbourhood);
+    /// acceleration ← force/m + g + surface forces/ρ.
+    void accelerate(const Neighbourhood& neighbourhood);
+
+    Scene& scene_;
+    Particles& particles_;
+    FlowParameters parameters_;
+    QuinticSpline kernel_;
+    Mobility mobility_;
+    Vector gravity_;
+    VectorField& force_;
+    VectorField& acceleration_;
+    std::unique_ptr<SurfaceTracker> surface_;
+
+private:
+    void find_temperature_gradient(const Neighbourhood& neighbourhood);
+
+    SurfaceTensionLaw tension_;
+    bool with_tension_, with_marangoni_, with_recoil_;
+    ScalarField* temperature_ = nullptr;
+    VectorField* temperature_gradient_ = nullptr;
+    std::unique_ptr<CorrectionMatrix> correction_;
+};
+
+/// Two phases that fill the domain: volume by summation, transport velocity. One phase with a free surface: δ-SPH.
+std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
+
+}  // namespace cupel

@@ -1,0 +1,151 @@
+#include "integrators/free_surface_flow.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "models/continuity.hpp"
+#include "models/momentum.hpp"
+#include "models/shifting.hpp"
+
+namespace cupel
+{
+
+FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
+    : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
+      density_gradient_(particles_.add_vector({"density_gradient", "kg/m4"})),
+      density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
+      rest_density_(scene.materials.front().density)
+{
+    if (scene.definition.numerics.shifting > 0.0)
+    {
+        shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
+        shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
+        mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
+        strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
+    }
+    start_hydrostatic();
+}
+
+/// Liquid under gravity starts with the pressure of its own weight, so that it does not first fall into itself.
+void FreeSurfaceFlow::start_hydrostatic()
+{
+    if (gravity_.z == 0.0)
+        return;
+    double top = -std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < particles_.count(); ++i)
+        if (mobility_.weight[i] != 0.0)
+            top = std::max(top, particles_.position[i].z);
+    const double surface = top + 0.5 * scene_.spacing;
+    for (Index i = 0; i < particles_.count(); ++i)
+        if (mobility_.weight[i] != 0.0)
+        {
+            const double weight = -rest_density_ * gravity_.z * (surface - particles_.position[i].z);
+            particles_.pressure[i] = weight;
+            particles_.density[i] = parameters_.equation_of_state.density(weight, rest_density_);
+            particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+        }
+}
+
+void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step)
+{
+    const auto& moving = neighbourhood.moving_particles();
+    const auto count = moving.size();
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m)
+    {
+        const Index i = moving[m];
+        Vector speed = particles_.velocity[i];
+        if (shift_)
+            speed += (*shift_)[i];
+        particles_.position.set(i, particles_.position[i] + time_step * speed);
+    }
+}
+
+/// Mass, density and momentum that shifting by the last drift carried between particles.
+void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_step)
+{
+    const auto& list = neighbourhood.list();
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
+    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                  ShiftingExchange{mobility_, particles_.volume, particles_.density, particles_.velocity, *shift_,
+                                   density_rate_, *mass_rate_, *shift_momentum_rate_});
+    for (const Index i : neighbourhood.moving_particles())
+        particles_.mass[i] += time_step * (*mass_rate_)[i];
+}
+
+/// The shifting velocity of the next drift.
+void FreeSurfaceFlow::shift_next(const Neighbourhood& neighbourhood)
+{
+    const double h = parameters_.smoothing_length;
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  StrainRate{mobility_, particles_.volume, particles_.velocity, correction_, *strain_rate_});
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h, kernel_(scene_.spacing).value,
+                                   0.05 / h, particles_.volume, *strain_rate_, &surface_->fields().colour_gradient,
+                                   *shift_});
+}
+
+void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
+{
+    for (const Index c : neighbourhood.standing())
+    {
+        const Cluster cluster = neighbourhood.list().cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility_.weight[i] == 0.0)
+            {
+                particles_.density[i] =
+                    parameters_.equation_of_state.density(particles_.pressure[i], rest_density_);
+                particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+            }
+    }
+}
+
+void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
+{
+    const auto& list = neighbourhood.list();
+    const auto& moving = neighbourhood.moving_particles();
+    const auto count = moving.size();
+
+    extrapolate_to_walls(neighbourhood, false);
+    give_walls_volume(neighbourhood);
+    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, correction_},
+                  ScalarGradient{mobility_, particles_.volume, particles_.density, density_gradient_});
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m)
+        density_gradient_.set(moving[m], correction_[moving[m]] * density_gradient_[moving[m]]);
+
+    const double diffusion = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                             parameters_.equation_of_state.sound_speed;
+    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                  Continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_gradient_,
+                             diffusion, density_rate_});
+    if (shift_)
+        exchange(neighbourhood, time_step);
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m)
+    {
+        const Index i = moving[m];
+        particles_.density[i] += time_step * density_rate_[i];
+        particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+        particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
+    }
+    extrapolate_to_walls(neighbourhood, false);
+    give_walls_volume(neighbourhood);
+
+    if (surface_)
+        surface_->update(neighbourhood);
+    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                  FreeSurfaceMomentum{mobility_, particles_.volume, particles_.pressure, particles_.velocity,
+                                      correction_, scene_.materials.front().viscosity.value(), force_});
+    if (shift_)
+    {
+        for (const Index i : moving)
+            force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
+        shift_next(neighbourhood);
+    }
+    add_remedies(neighbourhood);
+    accelerate(neighbourhood);
+}
+
+}  // namespace cupel

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "integrators/flow.hpp"
+
+namespace cupel
+{
+
+/// One liquid with nothing around it: continuity equation with density diffusion (δ-SPH), walls and solids by
+/// extrapolation, arbitrary Lagrangian-Eulerian shifting where the case asks for it.
+class FreeSurfaceFlow : public Flow
+{
+public:
+    FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
+
+    void drift(const Neighbourhood& neighbourhood, double time_step) override;
+    void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
+
+private:
+    void start_hydrostatic();
+    void shift_next(const Neighbourhood& neighbourhood);
+    void exchange(const Neighbourhood& neighbourhood, double time_step);
+    void give_walls_volume(const Neighbourhood& neighbourhood);
+
+    CorrectionMatrix correction_;
+    VectorField& density_gradient_;
+    ScalarField& density_rate_;
+    double rest_density_;
+    // Only where the case shifts particles:
+    VectorField* shift_ = nullptr;
+    VectorField* shift_momentum_rate_ = nullptr;
+    ScalarField* mass_rate_ = nullptr;
+    ScalarField* strain_rate_ = nullptr;
+};
+
+}  // namespace cupel

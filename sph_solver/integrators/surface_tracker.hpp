@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "integrators/neighbourhood.hpp"
+#include "integrators/parameters.hpp"
+#include "models/colour_profile.hpp"
+#include "models/surface_geometry.hpp"
+#include "models/wetting.hpp"
+
+namespace cupel
+{
+
+/// Finds the liquid's surface each step: colour gradient, wall normals where it wets, smoothed normals, curvature.
+/// Constructed only where a scene has a force that acts on the surface.
+class SurfaceTracker
+{
+public:
+    SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
+                   const ScalarField& mobility);
+
+    void update(const Neighbourhood& neighbourhood);
+
+    const SurfaceFields& fields() const { return fields_; }
+
+private:
+    void find_surface(const Neighbourhood& neighbourhood);
+    void finish_gradient(Index i);
+    void prescribe_wall_normals(const Neighbourhood& neighbourhood);
+    void turn_normals_at_solids(const Neighbourhood& neighbourhood);
+    void smooth_normals(const Neighbourhood& neighbourhood);
+    void fit_curvature(const Neighbourhood& neighbourhood);
+
+    Particles& particles_;
+    QuinticSpline kernel_;
+    Mobility mobility_;
+    ColourProfile profile_;
+    SurfaceFields fields_;
+    SurfaceThresholds thresholds_;
+    int dimensions_;
+    bool two_phase_, needs_curvature_;
+    double spacing_, h_, full_companions_;
+    std::optional<double> contact_angle_;       ///< rad; empty where nothing wets
+    std::optional<WallInterface> wall_interface_;
+    ScalarField* solid_colour_ = nullptr;
+    VectorField* solid_gradient_ = nullptr;
+};
+
+}  // namespace cupel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+
+namespace cupel
+{
+
+/// Three components of one scalar type: double, or Lanes where eight particles are treated at once.
+/// Two-dimensional scenes live in the x-z plane and keep y at zero.
+template <class Scalar>
+struct VectorOf
+{
+    Scalar x{}, y{}, z{};
+
+    VectorOf& operator+=(const VectorOf& other)
+    {
+        x += other.x;
+        y += other.y;
+        z += other.z;
+        return *this;
+    }
+    VectorOf& operator-=(const VectorOf& other)
+    {
+        x -= other.x;
+        y -= other.y;
+        z -= other.z;
+        return *this;
+    }
+};
+
+template <class Scalar>
+VectorOf<Scalar> operator+(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
+{
+    return a += b;
+}
+template <class Scalar>
+VectorOf<Scalar> operator-(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
+{
+    return a -= b;
+}
+template <class Scalar>
+VectorOf<Scalar> operator*(const Scalar& factor, const VectorOf<Scalar>& a)
+{
+    return {factor * a.x, factor * a.y, factor * a.z};
+}
+template <class Scalar>
+Scalar dot(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Scalar>
+VectorOf<Scalar> cross(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm(const VectorOf<double>& a) { return std::sqrt(dot(a, a)); }
+
+/// Symmetric second-order tensor.
+template <class Scalar>
+struct Symmetric3
+{
+    Scalar xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+
+    /// Adds weight · a ⊗ a.
+    void add_outer(const Scalar& weight, const VectorOf<Scalar>& a)
+    {
+        xx += weight * a.x * a.x;
+        xy += weight * a.x * a.y;
+        xz += weight * a.x * a.z;
+        yy += weight * a.y * a.y;
+        yz += weight * a.y * a.z;
+        zz += weight * a.z * a.z;
+    }
+};
+
+template <class Scalar>
+VectorOf<Scalar> operator*(const Symmetric3<Scalar>& m, const VectorOf<Scalar>& a)
+{
+    return {m.xx * a.x + m.xy * a.y + m.xz * a.z, m.xy * a.x + m.yy * a.y + m.yz * a.z,
+            m.xz * a.x + m.yz * a.y + m.zz * a.z};
+}
+
+using Vector = VectorOf<double>;
+
+}  // namespace cupel

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "models/term.hpp"
+
+namespace cupel
+{
+
+/// Artificial stress against clumping (Monaghan 2000, Gray, Monaghan, Swift 2001; the paper, section 2.3.2):
+///
+///   m_i dv_i/dt = −Σ_j m_i m_j f_ij⁴ (R_i + R_j) ∇W_ij,   f_ij = W(r_ij)/W(Δp),   R = ε |p|/ρ²      [N]
+///
+/// The paper takes ε = 0.2 for tension and compression alike.
+struct ArtificialStress
+{
+    Mobility mobility;
+    double strength;            ///< ε
+    double kernel_at_spacing;   ///< W(Δp)
+    const ScalarField& mass;
+    const ScalarField& density;
+    const ScalarField& pressure;
+    VectorField& force;
+
+    struct Near
+    {
+        Lanes mass, stress;
+    };
+    struct Sum
+    {
+        VectorLanes force{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index first) const
+    {
+        const Lanes p = pressure.lanes(first), rho = density.lanes(first);
+        return {mass.lanes(first), strength * maximum(p, -p) / (rho * rho)};
+    }
+    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    {
+        if (mobility.weight[j] == 0.0)
+            return;
+        const double stress_j = strength * std::abs(pressure[j]) / (density[j] * density[j]);
+        const Lanes closeness = pair.kernel / kernel_at_spacing;
+        const Lanes fourth = closeness * closeness * (closeness * closeness);
+        sum.force -= (i.mass * mass[j] * fourth * (i.stress + stress_j) * pair.gradient_over_r) * pair.offset;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+            if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0)
+                force.set(i, force[i] + Vector{sum.force.x[lane], sum.force.y[lane], sum.force.z[lane]});
+    }
+};
+
+}  // namespace cupel

@@ -1,0 +1,215 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/gradient_correction.hpp"
+#include "models/term.hpp"
+
+namespace cupel
+{
+
+/// Magnitude of the strain rate, with the corrected gradient of velocity:
+///
+///   γ̇_i = √(2 S:S),   S = ½(∇v + ∇vᵀ),   ∇v_i = Σ_j V_j (v_j − v_i) ⊗ L_i ∇W_ij      [1/s]
+struct StrainRate
+{
+    Mobility mobility;
+    const ScalarField& volume;
+    const VectorField& velocity;
+    CorrectionMatrix correction;
+    ScalarField& strain_rate;
+
+    struct Near
+    {
+        VectorLanes velocity;
+    };
+    struct Sum
+    {
+        VectorLanes x{}, y{}, z{};      // gradients of the three components, not yet corrected
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index first) const { return {velocity.lanes(first)}; }
+    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    {
+        const VectorLanes weight = (volume[j] * pair.gradient_over_r) * pair.offset;
+        const VectorLanes change = broadcast(velocity[j]) - i.velocity;
+        sum.x += change.x * weight;
+        sum.y += change.y * weight;
+        sum.z += change.z * weight;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0)
+                continue;
+            const auto row = [&](const VectorLanes& g)
+            { return correction[i] * Vector{g.x[lane], g.y[lane], g.z[lane]}; };
+            const Vector u = row(sum.x), v = row(sum.y), w = row(sum.z);
+            const double xy = u.y + v.x, xz = u.z + w.x, yz = v.z + w.y;
+            strain_rate[i] =
+                std::sqrt(2.0 * (u.x * u.x + v.y * v.y + w.z * w.z) + xy * xy + xz * xz + yz * yz);
+        }
+    }
+};
+
+/// Shifting velocity (Lind et al. 2012, with the pairing correction of Sun et al. 2017), scaled by the local strain:
+///
+///   δu_i = −U_i 2h Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   U_i = s h γ̇_i,   |δu_i| ≤ 0.1 U_i      [m/s]
+///
+/// Particles are moved where the flow distorts their arrangement and in proportion to it, nowhere else: a drop at rest
+/// is left alone, and one fast particle moves no other. In the surface band only the tangential part is kept.
+struct ShiftingVelocity
+{
+    Mobility mobility;
+    double strength;            ///< s
+    double smoothing_length;    ///< h, m
+    double kernel_at_spacing;   ///< W(Δx)
+    double tangential_above;    ///< |∇c| above which only the tangential part is kept, 1/m
+    const ScalarField& volume;
+    const ScalarField& strain_rate;
+    const VectorField* colour_gradient;     ///< out of the liquid, 1/m
+    VectorField& shift;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        VectorLanes concentration{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        const Lanes closeness = pair.kernel / kernel_at_spacing;
+        const Lanes square = closeness * closeness;
+        sum.concentration += (volume[j] * (1.0 + 0.2 * square * square) * pair.gradient_over_r) * pair.offset;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0)
+                continue;
+            const double speed = strength * smoothing_length * strain_rate[i];
+            Vector u = (-2.0 * smoothing_length * speed) * Vector{sum.concentration.x[lane],
+                                                                  sum.concentration.y[lane],
+                                                                  sum.concentration.z[lane]};
+            const double limit = 0.1 * speed;
+            const double magnitude = norm(u);
+            if (magnitude > limit)
+                u = (limit / magnitude) * u;
+            const Vector gradient = (*colour_gradient)[i];
+            const double slope = norm(gradient);
+            if (slope > tangential_above)
+                u -= (dot(u, gradient) / (slope * slope)) * gradient;
+            shift.set(i, u);
+        }
+    }
+};
+
+/// The shifting velocity of walls and solids, such that nothing flows through them: δu_w = −Σ δu_f W / Σ W.
+struct WallShift
+{
+    Mobility mobility;
+    VectorField& shift;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        Lanes weight{};
+        VectorLanes shift{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        if (mobility.weight[j] == 0.0)
+            return;
+        sum.weight += pair.kernel;
+        sum.shift += pair.kernel * broadcast(shift[j]);
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] != 0.0)
+                continue;
+            const double weight = sum.weight[lane];
+            const Vector total{sum.shift.x[lane], sum.shift.y[lane], sum.shift.z[lane]};
+            shift.set(i, weight > 0.0 ? (-1.0 / weight) * total : Vector{});
+        }
+    }
+};
+
+/// What a particle that moves with v + δu exchanges with its neighbours (arbitrary Lagrangian-Eulerian form, after
+/// Sun, Colagrossi, Marrone, Zhang 2019 and Antuono et al. 2021; derived in models/README.md):
+///
+///   dm_i/dt   = Σ_j Φ_ij,                  Φ_ij = V_i V_j (ρ_j δu_j + ρ_i δu_i)·∇W_ij      [kg/s]
+///   dρ_i/dt  += Σ_j Φ_ij/V_i − ρ_i Σ_j V_j (δu_j − δu_i)·∇W_ij                              [kg/(m³ s)]
+///   m_i dv_i/dt += Σ_j V_i V_j ρ_j (δu_j·∇W_ij)(v_j − v_i)                                  [N]
+///
+/// Φ is antisymmetric, so mass is conserved to round-off between liquid particles; walls exchange none.
+struct ShiftingExchange
+{
+    Mobility mobility;
+    const ScalarField& volume;
+    const ScalarField& density;
+    const VectorField& velocity;
+    const VectorField& shift;
+    ScalarField& density_rate;      ///< added to
+    ScalarField& mass_rate;         ///< kg/s
+    VectorField& momentum_rate;     ///< N
+
+    struct Near
+    {
+        Lanes volume, density;
+        VectorLanes velocity, shift;
+    };
+    struct Sum
+    {
+        Lanes density{}, mass{};
+        VectorLanes momentum{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index first) const
+    {
+        return {volume.lanes(first), density.lanes(first), velocity.lanes(first), shift.lanes(first)};
+    }
+    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    {
+        const double density_j = density[j], liquid = mobility.weight[j];
+        const Lanes weight = volume[j] * pair.gradient_over_r;
+        const Lanes own = weight * dot(i.shift, pair.offset);
+        const Lanes other = weight * dot(broadcast(shift[j]), pair.offset);
+        const Lanes flux = density_j * other + i.density * own;
+        sum.density += flux - i.density * (other - own);
+        sum.mass += liquid * i.volume * flux;
+        sum.momentum += (i.volume * density_j * other) * (broadcast(velocity[j]) - i.velocity);
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0)
+                continue;
+            density_rate[i] += sum.density[lane];
+            mass_rate[i] = sum.mass[lane];
+            momentum_rate.set(i, {sum.momentum.x[lane], sum.momentum.y[lane], sum.momentum.z[lane]});
+        }
+    }
+};
+
+}  // namespace cupel

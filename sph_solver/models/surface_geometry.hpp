@@ -1,0 +1,312 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "models/term.hpp"
+
+namespace cupel
+{
+
+/// Where the liquid's surface is, which way it faces and how it curves, per particle. `colour` is 1 in the primary
+/// liquid and 0 in the surrounding; wall particles may carry any share in between.
+struct SurfaceFields
+{
+    ScalarField& colour;
+    VectorField& colour_gradient;       ///< −∇c, 1/m: points out of the liquid
+    ScalarField& smoothed_colour;       ///< Σ V W c (free surface), Σ V W c / Σ V W (two phases)
+    ScalarField& companions;            ///< liquid neighbours within two smoothing lengths
+    VectorField& normal;                ///< n̂, out of the liquid
+    VectorField& smoothed_normal;
+    ScalarField& delta;                 ///< δ, 1/m: its integral across the surface is one
+    ScalarField& in_band;               ///< 1 where |∇c| h marks the surface itself
+    ScalarField& depth;                 ///< distance below the surface, positive in the liquid, m
+    ScalarField& raw_curvature;         ///< ∇·n̂, 1/m
+    ScalarField& curvature_valid;
+    ScalarField& curvature;             ///< raw_curvature smoothed over the band
+
+    static SurfaceFields register_in(Particles& particles)
+    {
+        const auto scalar = [&](const char* name, const char* unit) -> ScalarField&
+        { return particles.add_scalar({name, unit}); };
+        const auto vector = [&](const char* name, const char* unit) -> VectorField&
+        { return particles.add_vector({name, unit}); };
+        return {scalar("colour", "1"),          vector("colour_gradient", "1/m"), scalar("smoothed_colour", "1"),
+                scalar("companions", "1"),      vector("surface_normal", "1"),    vector("smoothed_normal", "1"),
+                scalar("surface_delta", "1/m"), scalar("surface_band", "1"),      scalar("surface_depth", "m"),
+                scalar("raw_curvature", "1/m"), scalar("curvature_valid", "1"),   scalar("curvature", "1/m")};
+    }
+};
+
+/// Thresholds of the surface band, all relative to the smoothing length h.
+struct SurfaceThresholds
+{
+    double band = 0.25;                 ///< |∇c| h above which a particle is at the surface
+    double curvature_two_phase = 0.1;   ///< δ h above which curvature is fitted
+    double curvature_free_surface = 0.2;
+    double fewest_companions = 10.0 / 32.0;     ///< share of a full neighbourhood below which there is only spray
+};
+
+/// Colour gradient (Morris 2000, eq. 9):
+///
+///   two phases:    −∇c_i = −Σ_j V_j (c_j − c_i) ∇W_ij       free surface:    −∇c_i = −Σ_j V_j c_j ∇W_ij      [1/m]
+///
+/// With a free surface the sum over nothing outside counts as c = 0 there.
+struct ColourGradient
+{
+    Mobility mobility;
+    bool two_phase;
+    double smoothing_length;
+    const ScalarField& volume;
+    SurfaceFields surface;
+
+    struct Near
+    {
+        Lanes colour;
+    };
+    struct Sum
+    {
+        VectorLanes gradient{};
+        Lanes colour{}, weight{}, companions{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index first) const
+    {
+        return {two_phase ? surface.colour.lanes(first) : Lanes{}};
+    }
+    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    {
+        const double colour_j = surface.colour[j], volume_j = volume[j];
+        sum.gradient -= (volume_j * (colour_j - i.colour) * pair.gradient_over_r) * pair.offset;
+        sum.colour += (volume_j * colour_j) * pair.kernel;
+        sum.weight += volume_j * pair.kernel;
+        const double mobile = mobility.weight[j];
+        sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(mobile) : Lanes{};
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        store_if(surface.colour_gradient, cluster, sum.gradient, liquid);
+        store_if(surface.smoothed_colour, cluster, two_phase ? sum.colour / sum.weight : sum.colour, liquid);
+        store_if(surface.companions, cluster, sum.companions, liquid);
+    }
+};
+
+/// Smoothed normals (weight δ W over the band, sph.md's remedy for noisy curvature):
+///
+///   n̂_i ← Σ_j δ_j W_ij n̂_j / |…|      [1]
+struct NormalSmoothing
+{
+    Mobility mobility;
+    SurfaceFields surface;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        VectorLanes normal{};
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0)
+                return false;
+        return true;
+    }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        const double delta_j = surface.delta[j];
+        if (delta_j > 0.0)
+            sum.normal += pair.kernel * broadcast(delta_j * surface.normal[j]);
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0 || !(surface.delta[i] > 0.0))
+                continue;
+            const Vector normal{sum.normal.x[lane], sum.normal.y[lane], sum.normal.z[lane]};
+            const double length = norm(normal);
+            surface.smoothed_normal.set(i, length > 0.0 ? (1.0 / length) * normal : surface.normal[i]);
+        }
+    }
+};
+
+/// Marks particles that have a neighbour at the surface itself: only they bear surface forces, so that the noise of
+/// ∇c in the bulk does not.
+struct SurfaceNeighbourhood
+{
+    Mobility mobility;
+    SurfaceFields surface;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        Lanes found{};
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0)
+                return false;
+        return true;
+    }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        if (mobility.weight[j] != 0.0 && surface.in_band[j] != 0.0)
+            sum.found += pair.kernel;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        // raw_curvature is free at this stage and keeps the mark until the curvature itself is fitted.
+        store_if(surface.raw_curvature, cluster, sum.found,
+                 [&](Index i) { return mobility.weight[i] != 0.0 && surface.in_band[i] == 0.0; });
+    }
+};
+
+/// Curvature by least squares in the tangent plane: the matrix ∂n̂_a/∂x_b over the two tangents is fitted to the
+/// differences of normals with the weights w_j = −(1/r dW/dr) V_j δ_j, and its trace is taken:
+///
+///   κ_i = tr { [Σ w Δn̂ ⊗ Δx] [Σ w Δx ⊗ Δx]⁻¹ },   Δx, Δn̂ projected on the tangents      [1/m]
+///
+/// Unlike −∇·n̂ summed with kernel gradients it needs no full neighbourhood on both sides of the band.
+struct TangentPlaneCurvature
+{
+    Mobility mobility;
+    int dimensions;
+    double smallest_delta;      ///< below it a particle takes no part, 1/m
+    double greatest_curvature;  ///< limit, 1/m
+    const ScalarField& volume;
+    SurfaceFields surface;
+
+    struct Near
+    {
+        VectorLanes normal, tangent_1, tangent_2;
+    };
+    struct Sum
+    {
+        Lanes xx{}, xy{}, yy{};             // Σ w Δx ⊗ Δx
+        Lanes n1_x{}, n1_y{}, n2_x{}, n2_y{};   // Σ w Δn̂ ⊗ Δx
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility.weight[i] != 0.0 && surface.delta[i] >= smallest_delta)
+                return false;
+        return true;
+    }
+    Near near(Index first) const
+    {
+        const VectorLanes normal = surface.normal.lanes(first);
+        if (dimensions == 2)
+            return {normal, {-normal.z, Lanes{}, normal.x}, {Lanes{}, all_lanes(1.0), Lanes{}}};
+        // Any vector that is not along the normal starts the pair of tangents.
+        const LaneMask along_x = normal.x * normal.x > all_lanes(0.49);
+        const VectorLanes start{along_x ? Lanes{} : all_lanes(1.0), along_x ? all_lanes(1.0) : Lanes{}, Lanes{}};
+        VectorLanes tangent = cross(normal, start);
+        tangent = (1.0 / square_root(dot(tangent, tangent) + 1e-300)) * tangent;
+        return {normal, tangent, cross(normal, tangent)};
+    }
+    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    {
+        const double delta_j = surface.delta[j];
+        if (!(delta_j >= smallest_delta))
+            return;
+        const Lanes weight = (-volume[j] * delta_j) * pair.gradient_over_r;
+        const VectorLanes change = broadcast(surface.normal[j]) - i.normal;
+        const Lanes x1 = -dot(pair.offset, i.tangent_1), x2 = -dot(pair.offset, i.tangent_2);
+        const Lanes n1 = dot(change, i.tangent_1), n2 = dot(change, i.tangent_2);
+        sum.xx += weight * x1 * x1;
+        sum.xy += weight * x1 * x2;
+        sum.yy += weight * x2 * x2;
+        sum.n1_x += weight * n1 * x1;
+        sum.n1_y += weight * n1 * x2;
+        sum.n2_x += weight * n2 * x1;
+        sum.n2_y += weight * n2 * x2;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0)
+                continue;
+            surface.raw_curvature[i] = 0.0;
+            surface.curvature_valid[i] = 0.0;
+            if (!(surface.delta[i] >= smallest_delta))
+                continue;
+            const double xx = sum.xx[lane], xy = sum.xy[lane], yy = sum.yy[lane];
+            double curvature = 0.0;
+            if (dimensions == 2)
+            {
+                if (!(xx > 0.0))
+                    continue;
+                curvature = sum.n1_x[lane] / xx;
+            }
+            else
+            {
+                const double determinant = xx * yy - xy * xy;
+                if (!(determinant > 1e-3 * (xx + yy) * (xx + yy)))
+                    continue;
+                curvature = (sum.n1_x[lane] * yy - sum.n1_y[lane] * xy + sum.n2_y[lane] * xx - sum.n2_x[lane] * xy) /
+                            determinant;
+            }
+            surface.raw_curvature[i] = std::clamp(curvature, -greatest_curvature, greatest_curvature);
+            surface.curvature_valid[i] = 1.0;
+        }
+    }
+};
+
+/// κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles whose fit succeeded      [1/m]
+struct CurvatureSmoothing
+{
+    Mobility mobility;
+    SurfaceFields surface;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        Lanes curvature{}, weight{};
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0)
+                return false;
+        return true;
+    }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        const double weight_j = surface.curvature_valid[j] * surface.delta[j];
+        sum.curvature += (weight_j * surface.raw_curvature[j]) * pair.kernel;
+        sum.weight += weight_j * pair.kernel;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane)
+        {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0)
+                continue;
+            const bool bears_force = surface.delta[i] > 0.0 && sum.weight[lane] > 0.0;
+            surface.curvature[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
+        }
+    }
+};
+
+}  // namespace cupel

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "kernels/pair_loop.hpp"
+#include "particles/particles.hpp"
+
+namespace cupel
+{
+
+/// 1 for a particle whose momentum is integrated, 0 for one that stands: the weight by which sums over "the liquid"
+/// leave out walls and solids.
+struct Mobility
+{
+    const ScalarField& weight;
+
+    bool none_in(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (weight[i] != 0.0)
+                return false;
+        return true;
+    }
+    bool all_in(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (weight[i] == 0.0)
+                return false;
+        return true;
+    }
+};
+
+/// Keeps the lanes of particles for which choose(i) holds; the others belong to somebody else.
+template <class Choose>
+void store_if(ScalarField& field, const Cluster& cluster, const Lanes& values, const Choose& choose)
+{
+    for (int lane = 0; lane < cluster.count; ++lane)
+        if (choose(cluster.first + lane))
+            field[cluster.first + lane] = values[lane];
+}
+template <class Choose>
+void store_if(VectorField& field, const Cluster& cluster, const VectorLanes& values, const Choose& choose)
+{
+    for (int lane = 0; lane < cluster.count; ++lane)
+        if (choose(cluster.first + lane))
+            field.set(cluster.first + lane, {values.x[lane], values.y[lane], values.z[lane]});
+}
+
+}  // namespace cupel

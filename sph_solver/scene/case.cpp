@@ -1,0 +1,258 @@
+#include "scene/case.hpp"
+
+#include "scene/physics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace cupel
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+std::optional<double> optional_number(const json& table, const char* key)
+{
+    const auto found = table.find(key);
+    return found == table.end() || found->is_null() ? std::nullopt : std::optional<double>(found->get<double>());
+}
+
+Material material_from(const std::string& name, const json& table)
+{
+    Material material;
+    material.name = name;
+    material.density = table.at("density");
+    material.density_solid = optional_number(table, "density_solid");
+    material.viscosity = optional_number(table, "viscosity");
+    material.specific_heat = optional_number(table, "specific_heat");
+    material.specific_heat_solid = optional_number(table, "specific_heat_solid");
+    material.conductivity = optional_number(table, "conductivity");
+    material.conductivity_solid = optional_number(table, "conductivity_solid");
+    material.solidus = optional_number(table, "solidus");
+    material.liquidus = optional_number(table, "liquidus");
+    material.melting_temperature = optional_number(table, "melting_temperature");
+    material.latent_heat = optional_number(table, "latent_heat");
+    material.surface_tension = optional_number(table, "surface_tension");
+    material.surface_tension_slope = optional_number(table, "surface_tension_slope");
+    material.surface_tension_reference_temperature = optional_number(table, "surface_tension_reference_temperature");
+    material.surface_tension_minimum = optional_number(table, "surface_tension_minimum");
+    material.contact_angle = optional_number(table, "contact_angle");
+    material.boiling_temperature = optional_number(table, "boiling_temperature");
+    material.vaporization_heat = optional_number(table, "vaporization_heat");
+    material.molar_mass = optional_number(table, "molar_mass");
+    material.emissivity = optional_number(table, "emissivity");
+    material.absorptivity = optional_number(table, "absorptivity");
+    return material;
+}
+
+BoundaryKind boundary_kind(const std::string& text)
+{
+    if (text == "wall")
+        return BoundaryKind::wall;
+    if (text == "symmetry")
+        return BoundaryKind::symmetry;
+    if (text == "open")
+        return BoundaryKind::open;
+    if (text == "periodic")
+        return BoundaryKind::periodic;
+    throw CaseError("resolved case: domain.boundaries: unknown kind '" + text + "'; resolve the case again");
+}
+
+Domain domain_from(const json& table)
+{
+    Domain domain;
+    domain.lower = table.at("lower").get<Vector3>();
+    domain.upper = table.at("upper").get<Vector3>();
+    for (std::size_t side = 0; side < side_names.size(); ++side)
+    {
+        const auto found = table.at("boundaries").find(side_names[side]);
+        if (found == table.at("boundaries").end())
+            continue;
+        Boundary boundary;
+        boundary.kind = boundary_kind(found->at("kind"));
+        boundary.no_slip = found->value("slip", "no_slip") == "no_slip";
+        boundary.temperature = optional_number(*found, "temperature");
+        domain.boundaries[side] = boundary;
+    }
+    return domain;
+}
+
+Body body_from(const json& table)
+{
+    Body body;
+    const std::string shape = table.at("shape");
+    body.material = table.at("material");
+    body.solid = table.at("state") == "solid";
+    if (shape == "sphere")
+    {
+        body.shape = BodyShape::sphere;
+        body.center = table.at("center").get<Vector3>();
+        body.radius = table.at("radius");
+        return body;
+    }
+    if (shape != "box" && shape != "powder_bed")
+        throw CaseError("resolved case: bodies: unknown shape '" + shape + "'; resolve the case again");
+    body.lower = table.at("lower").get<Vector3>();
+    body.upper = table.at("upper").get<Vector3>();
+    if (shape == "powder_bed")
+    {
+        body.shape = BodyShape::powder_bed;
+        body.file = table.at("file");
+    }
+    return body;
+}
+
+Laser laser_from(const json& table)
+{
+    Laser laser;
+    laser.power = table.at("power");
+    laser.speed = table.at("speed");
+    laser.spot_radius = table.at("spot_radius");
+    laser.absorptivity = table.at("absorptivity");
+    laser.from = table.at("path").at("from").get<std::array<double, 2>>();
+    laser.to = table.at("path").at("to").get<std::array<double, 2>>();
+    laser.start = table.at("start");
+    return laser;
+}
+
+Numerics numerics_from(const json& table)
+{
+    Numerics numerics;
+    numerics.formulation = table.at("formulation");
+    numerics.kernel = table.at("kernel") == "wendland_c2" ? Kernel::wendland_c2 : Kernel::quintic_spline;
+    numerics.smoothing_ratio = table.at("smoothing_ratio");
+    numerics.artificial_viscosity = table.at("artificial_viscosity");
+    numerics.artificial_viscosity_beta = table.at("artificial_viscosity_beta");
+    numerics.artificial_stress = table.at("artificial_stress");
+    numerics.artificial_heat = table.at("artificial_heat");
+    numerics.density_diffusion = table.at("density_diffusion");
+    numerics.shifting = table.at("shifting");
+    numerics.sound_speed = optional_number(table, "sound_speed");
+    numerics.sound_speed_factor = table.at("sound_speed_factor");
+    numerics.reference_speed = optional_number(table, "reference_speed");
+    numerics.time_step_factor = table.at("time_step_factor");
+    numerics.thermal_time_step_factor = table.at("thermal_time_step_factor");
+    numerics.single_precision = table.at("precision") == "float";
+    numerics.skin = table.at("skin");
+    numerics.only_what_moves = table.at("only_what_moves");
+    numerics.background_pressure_factor = table.at("background_pressure_factor");
+    return numerics;
+}
+
+Surrounding surrounding_from(const json& table)
+{
+    return {table.at("material"), table.at("resolved"), table.at("temperature"), table.at("pressure"),
+            table.at("convection_coefficient")};
+}
+
+bool present(const json& table, const char* key)
+{
+    const auto found = table.find(key);
+    return found != table.end() && !found->is_null();
+}
+
+}  // namespace
+
+double Laser::off_time() const
+{
+    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    return length > 0 && speed > 0 ? start + length / speed : std::numeric_limits<double>::infinity();
+}
+
+std::array<double, 2> Laser::position(double time) const
+{
+    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    if (length == 0 || speed == 0)
+        return from;
+    const double share = std::clamp((time - start) * speed / length, 0.0, 1.0);
+    return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+}
+
+bool Case::requires_physics(std::string_view physics_name) const
+{
+    if (!is_physics(physics_name))
+        throw CaseError("physics: there is none of the name '" + std::string(physics_name) + "'");
+    return std::find(physics.begin(), physics.end(), physics_name) != physics.end();
+}
+
+const Material& Case::material(const std::string& material_name) const
+{
+    const auto found = materials.find(material_name);
+    if (found == materials.end())
+        throw CaseError("material: the case has none of the name '" + material_name + "'");
+    return found->second;
+}
+
+double Case::initial_temperature(const Vector3& position) const
+{
+    double temperature = initial.temperature;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        temperature += initial.temperature_gradient[axis] * (position[axis] - domain.lower[axis]);
+    return temperature;
+}
+
+Case case_from_resolved(const json& resolved)
+{
+    try
+    {
+        if (const int schema = resolved.at("schema"); schema != resolved_schema_version)
+            throw CaseError("resolved case: schema " + std::to_string(schema) + " is not the " +
+                            std::to_string(resolved_schema_version) + " of this program; resolve the case again");
+        Case result;
+        result.resolved = resolved;
+        result.name = resolved.at("name");
+        result.title = resolved.at("title");
+        result.hash = resolved.at("hash");
+        result.level = resolved.at("level");
+        result.spacing = resolved.at("spacing");
+        result.dimensions = resolved.at("dimensions");
+        result.physics = resolved.at("physics").get<std::vector<std::string>>();
+        for (const auto& [name, table] : resolved.at("materials").items())
+            result.materials.emplace(name, material_from(name, table));
+        if (present(resolved, "surrounding"))
+            result.surrounding = surrounding_from(resolved.at("surrounding"));
+        result.domain = domain_from(resolved.at("domain"));
+        if (present(resolved, "gravity"))
+            result.gravity = resolved.at("gravity").get<Vector3>();
+        if (present(resolved, "initial"))
+        {
+            result.initial.temperature = resolved.at("initial").at("temperature");
+            result.initial.temperature_gradient = resolved.at("initial").at("temperature_gradient").get<Vector3>();
+        }
+        for (const json& body : resolved.at("bodies"))
+            result.bodies.push_back(body_from(body));
+        if (present(resolved, "laser"))
+            result.laser = laser_from(resolved.at("laser"));
+        result.time = {resolved.at("time").at("end"), resolved.at("time").at("output_interval")};
+        result.numerics = numerics_from(resolved.at("numerics"));
+        return result;
+    }
+    catch (const json::exception& error)
+    {
+        throw CaseError(std::string("resolved case: ") + error.what() +
+                        "; make it again with cupel_case resolve CASE.toml");
+    }
+}
+
+Case read_resolved_case(const std::string& path)
+{
+    std::ifstream stream(path);
+    if (!stream)
+        throw CaseError(path + ": cannot be opened; make it with cupel_case resolve CASE.toml > " + path);
+    json resolved;
+    try
+    {
+        resolved = json::parse(stream);
+    }
+    catch (const json::exception& error)
+    {
+        throw CaseError(path + ": is not JSON (" + error.what() + "); make it again with cupel_case resolve");
+    }
+    return case_from_resolved(resolved);
+}
+
+}  // namespace cupel

@@ -1,0 +1,290 @@
+#include "scene/place_particles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "scene/powder_bed.hpp"
+
+namespace cupel
+{
+
+namespace
+{
+
+/// Layers of wall particles: enough to complete a kernel of support 3 spacings.
+constexpr int wall_layers = 3;
+
+struct Lattice
+{
+    Vector lower;
+    double spacing;
+    std::array<int, 3> cells;
+
+    Vector point(const std::array<int, 3>& cell) const
+    {
+        const bool flat = cells[1] == 1;
+        return {lower.x + (cell[0] + 0.5) * spacing, flat ? 0.0 : lower.y + (cell[1] + 0.5) * spacing,
+                lower.z + (cell[2] + 0.5) * spacing};
+    }
+};
+
+/// What fills a lattice point.
+struct Filling
+{
+    Kind kind;
+    std::uint8_t material;
+};
+
+Lattice make_lattice(const Case& definition)
+{
+    const auto& lower = definition.domain.lower;
+    const auto& upper = definition.domain.upper;
+    const auto cells = [&](std::size_t axis)
+    { return static_cast<int>(std::lround((upper[axis] - lower[axis]) / definition.spacing)); };
+    return {{lower[0], lower[1], lower[2]},
+            definition.spacing,
+            {cells(0), definition.dimensions == 2 ? 1 : cells(1), cells(2)}};
+}
+
+bool inside_box(const Body& body, const Vector& p, bool flat)
+{
+    return p.x >= body.lower[0] && p.x < body.upper[0] && p.z >= body.lower[2] && p.z < body.upper[2] &&
+           (flat || (p.y >= body.lower[1] && p.y < body.upper[1]));
+}
+
+bool inside_sphere(const Vector& center, double radius, const Vector& p)
+{
+    const Vector offset = p - center;
+    return dot(offset, offset) < radius * radius;
+}
+
+/// Grid of what fills each lattice point; later bodies lie over earlier ones.
+class FillingGrid
+{
+public:
+    FillingGrid(const Lattice& lattice, std::optional<Filling> background)
+        : lattice_(lattice), cells_(static_cast<std::size_t>(lattice.cells[0]) *
+                                        static_cast<std::size_t>(lattice.cells[1]) *
+                                        static_cast<std::size_t>(lattice.cells[2]),
+                                    background)
+    {
+    }
+
+    std::optional<Filling>& at(const std::array<int, 3>& cell)
+    {
+        return cells_[(static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(lattice_.cells[1]) +
+                       static_cast<std::size_t>(cell[1])) *
+                          static_cast<std::size_t>(lattice_.cells[0]) +
+                      static_cast<std::size_t>(cell[0])];
+    }
+
+    /// Fills the lattice points for which inside(point) holds, within a box that encloses them.
+    template <class Inside>
+    void fill(const Vector& lower, const Vector& upper, const Filling& filling, const Inside& inside)
+    {
+        std::array<int, 3> begin{}, end{};
+        const std::array<double, 3> low{lower.x, lower.y, lower.z}, high{upper.x, upper.y, upper.z};
+        const std::array<double, 3> origin{lattice_.lower.x, lattice_.lower.y, lattice_.lower.z};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+            const bool flat = axis == 1 && lattice_.cells[1] == 1;
+            const double first = std::floor((low[axis] - origin[axis]) / lattice_.spacing);
+            const double last = std::ceil((high[axis] - origin[axis]) / lattice_.spacing);
+            begin[axis] = flat ? 0 : static_cast<int>(std::clamp(first, 0.0, double(lattice_.cells[axis])));
+            end[axis] = flat ? 1 : static_cast<int>(std::clamp(last, 0.0, double(lattice_.cells[axis])));
+        }
+        std::array<int, 3> cell{};
+        for (cell[2] = begin[2]; cell[2] < end[2]; ++cell[2])
+            for (cell[1] = begin[1]; cell[1] < end[1]; ++cell[1])
+                for (cell[0] = begin[0]; cell[0] < end[0]; ++cell[0])
+                    if (inside(lattice_.point(cell)))
+                        at(cell) = filling;
+    }
+
+private:
+    Lattice lattice_;
+    std::vector<std::optional<Filling>> cells_;
+};
+
+Vector to_vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, bool flat)
+{
+    const Vector lower = to_vector(body.lower), upper = to_vector(body.upper), center = to_vector(body.center);
+    const auto fill_ball = [&](const Vector& middle, double radius)
+    {
+        const Vector reach{radius, radius, radius};
+        grid.fill(middle - reach, middle + reach, filling,
+                  [&](const Vector& p) { return inside_sphere(middle, radius, p); });
+    };
+    switch (body.shape)
+    {
+    case BodyShape::box:
+        grid.fill(lower, upper, filling, [&](const Vector& p) { return inside_box(body, p, flat); });
+        break;
+    case BodyShape::sphere:
+        fill_ball(flat ? Vector{center.x, 0.0, center.z} : center, body.radius);
+        break;
+    case BodyShape::powder_bed:
+        for (const auto& grain : read_powder_bed(body.file))
+            if (inside_box(body, to_vector(grain.center), flat))
+                fill_ball(to_vector(grain.center), grain.radius);
+        break;
+    }
+}
+
+struct Placement
+{
+    Vector position;
+    Kind kind;
+    std::uint8_t material;
+    Vector wall_normal;
+    bool free_slip;
+    std::optional<std::array<int, 3>> parent_cell;
+};
+
+/// Wall particles fill the shell of lattice points around the domain that lie behind walls only.
+void place_walls(const Case& definition, const Lattice& lattice, std::vector<Placement>& placements)
+{
+    const std::array<int, 3> layers{wall_layers, definition.dimensions == 2 ? 0 : wall_layers, wall_layers};
+    std::array<int, 3> cell{};
+    for (cell[2] = -layers[2]; cell[2] < lattice.cells[2] + layers[2]; ++cell[2])
+        for (cell[1] = -layers[1]; cell[1] < lattice.cells[1] + layers[1]; ++cell[1])
+            for (cell[0] = -layers[0]; cell[0] < lattice.cells[0] + layers[0]; ++cell[0])
+            {
+                int outside = 0;
+                bool behind_walls = true, free_slip = true;
+                Vector normal{};
+                auto parent = cell;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                {
+                    const bool below = cell[axis] < 0, above = cell[axis] >= lattice.cells[axis];
+                    if (!below && !above)
+                        continue;
+                    ++outside;
+                    const auto& boundary = definition.domain.boundaries[2 * axis + (above ? 1 : 0)];
+                    if (!boundary || boundary->kind != BoundaryKind::wall)
+                        behind_walls = false;
+                    else
+                        free_slip = free_slip && !boundary->no_slip;
+                    (axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z) = below ? 1.0 : -1.0;
+                    parent[axis] = below ? -1 : lattice.cells[axis];
+                }
+                if (outside == 0 || !behind_walls)
+                    continue;
+                const double length = norm(normal);
+                Placement wall{lattice.point(cell), Kind::wall, 0, (1.0 / length) * normal, free_slip, std::nullopt};
+                // Edges and corners have no surface of their own that a contact line could run on.
+                if (outside == 1)
+                    wall.parent_cell = parent;
+                placements.push_back(wall);
+            }
+}
+
+}  // namespace
+
+double Scene::particle_volume() const
+{
+    return dimensions == 2 ? spacing * spacing : spacing * spacing * spacing;
+}
+
+Scene place_particles(const Case& definition)
+{
+    for (std::size_t side = 0; side < 6; ++side)
+        if (const auto& boundary = definition.domain.boundaries[side];
+            boundary && (boundary->kind == BoundaryKind::symmetry || boundary->kind == BoundaryKind::periodic))
+            throw CaseError("domain.boundaries." + std::string(side_names[side]) +
+                            ": the SPH solver knows 'wall' and 'open'; choose one of them");
+    if (definition.bodies.empty())
+        throw CaseError("body: the case has no body; add one [[body]]");
+
+    Scene scene;
+    scene.definition = definition;
+    scene.spacing = definition.spacing;
+    scene.dimensions = definition.dimensions;
+    scene.two_phase = definition.surrounding && definition.surrounding->resolved;
+
+    std::vector<std::string> names;
+    const auto material_index = [&](const std::string& name)
+    {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found != names.end())
+            return static_cast<std::uint8_t>(found - names.begin());
+        names.push_back(name);
+        scene.materials.push_back(definition.material(name));
+        return static_cast<std::uint8_t>(names.size() - 1);
+    };
+    for (const Body& body : definition.bodies)
+        material_index(body.material);
+    std::optional<Filling> background;
+    if (scene.two_phase)
+        background = Filling{Kind::fluid, material_index(definition.surrounding->material)};
+    if (names.size() > 2 || (names.size() == 2 && !scene.two_phase))
+        throw CaseError("body: the SPH solver models one liquid in vacuum or one in a resolved surrounding, but the "
+                        "bodies are made of more; use one material");
+
+    const Lattice lattice = make_lattice(definition);
+    const bool flat = definition.dimensions == 2;
+    FillingGrid grid(lattice, background);
+    bool any_fluid = scene.two_phase;
+    for (const Body& body : definition.bodies)
+    {
+        any_fluid = any_fluid || !body.solid;
+        fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)}, flat);
+    }
+
+    std::vector<Placement> placements;
+    std::array<int, 3> cell{};
+    for (cell[2] = 0; cell[2] < lattice.cells[2]; ++cell[2])
+        for (cell[1] = 0; cell[1] < lattice.cells[1]; ++cell[1])
+            for (cell[0] = 0; cell[0] < lattice.cells[0]; ++cell[0])
+                if (const auto& filling = grid.at(cell))
+                    placements.push_back({lattice.point(cell), filling->kind, filling->material, {}, false, {}});
+    if (placements.empty())
+        throw CaseError("resolution: no particle fits into any body at a spacing of " +
+                        std::to_string(definition.spacing) + " m; choose a finer one");
+    // A scene that is solid to its borders needs no walls: nothing molten reaches them.
+    if (any_fluid)
+        place_walls(definition, lattice, placements);
+
+    scene.particles = std::make_unique<Particles>(static_cast<Index>(placements.size()));
+    Particles& particles = *scene.particles;
+    VectorField* wall_normal = any_fluid ? &particles.add_vector({"wall_normal", "1"}) : nullptr;
+    ScalarField* free_slip = any_fluid ? &particles.add_scalar({"wall_free_slip", "1"}) : nullptr;
+    std::map<std::array<int, 3>, Index> identity_of_cell;
+    const auto cell_of = [&](const Vector& p)
+    {
+        const auto index = [&](double x, double low) { return static_cast<int>(std::floor((x - low) / scene.spacing)); };
+        return std::array<int, 3>{index(p.x, lattice.lower.x), flat ? 0 : index(p.y, lattice.lower.y),
+                                  index(p.z, lattice.lower.z)};
+    };
+    const double volume = scene.particle_volume();
+    for (Index i = 0; i < particles.count(); ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        const Placement& placement = placements[k];
+        particles.kind[k] = placement.kind;
+        particles.material[k] = placement.material;
+        particles.position.set(i, placement.position);
+        const double density = scene.materials[placement.material].density;
+        particles.density[i] = density;
+        particles.volume[i] = volume;
+        particles.mass[i] = density * volume;
+        if (placement.kind == Kind::wall)
+        {
+            wall_normal->set(i, placement.wall_normal);
+            (*free_slip)[i] = placement.free_slip ? 1.0 : 0.0;
+            if (placement.parent_cell)
+                identity_of_cell[cell_of(placement.position)] = i;
+        }
+    }
+    for (Index i = 0; i < particles.count(); ++i)
+        if (const auto& placement = placements[static_cast<std::size_t>(i)]; placement.parent_cell)
+            particles.surface_parent[static_cast<std::size_t>(i)] = identity_of_cell.at(*placement.parent_cell);
+    return scene;
+}
+
+}  // namespace cupel
