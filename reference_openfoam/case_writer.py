@@ -22,8 +22,8 @@ NUMERICS = {
     "curvature_averaging_passes": 1,
     "mushy_drag_constant": 1e13,
     "momentum_predictor": False,
-    "pressure_correctors": 3,
-    "temperature_tolerance": 0.01,
+    "pressure_correctors": 2,
+    "temperature_tolerance": 0.5,
     "energy_iterations": 25,
 }
 NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
@@ -31,12 +31,12 @@ PATCH_TYPES = {"wall": "wall", "symmetry": "symmetryPlane", "open": "patch", "pe
 TEMPERATURE = "[0 0 0 1 0 0 0]"
 
 
-def write_case(case: ResolvedCase, folder: Path) -> Grid:
-    """Write the OpenFOAM case of a resolved case into `folder`; returns its grid.
+def write_case(case: ResolvedCase, folder: Path, grid: Grid | None = None) -> Grid:
+    """Write the OpenFOAM case of a resolved case into `folder`; returns its grid (made here if none is given).
 
     Errors: Refused for a bed file that cannot be read.
     """
-    grid = make_grid(case, top_of_bodies(case))
+    grid = grid or make_grid(case, top_of_bodies(case))
     fraction = volume_fractions(case, grid)
     write_mesh(grid, patch_types(case), folder)
     _write_start_fields(case, grid, fraction, folder/"0")
@@ -78,7 +78,7 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
     write_field(folder/"fraction", "volScalarField", "[0 0 0 0 0 0 0]", scalar_list(fraction), _boundary(
         case,
         lambda side: {"type": "fixedGradient", "gradient": "uniform 0"} if wetting else {"type": "zeroGradient"},
-        {"type": "inletOutlet", "inletValue": "uniform 0", "value": "uniform 0"}))
+        _inflow(case, 0.0)))
     if "flow" in case.physics:
         write_field(folder/"U", "volVectorField", "[0 1 -1 0 0 0 0]", "uniform (0 0 0)", _boundary(
             case,
@@ -89,9 +89,7 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
             {"type": "totalPressure", "rho": "density", "p0": "uniform 0", "value": "uniform 0"}))
     if "heat" in case.physics:
         write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
-                    _boundary(case, lambda side: _wall_temperature(case, side), {
-                        "type": "inletOutlet", "inletValue": f"uniform {ambient_temperature(case)!r}",
-                        "value": f"uniform {ambient_temperature(case)!r}"}))
+                    _boundary(case, lambda side: _wall_temperature(case, side), _inflow(case, ambient_temperature(case))))
     elif "marangoni" in case.physics:
         # frozen: the linear field up to the sides, so that its gradient is exact in the cells along them
         conditions = {}
@@ -99,6 +97,13 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
             values = scalar_list(start_temperature(case, grid.side_centres(side)))
             conditions[side] = {"type": "fixedValue", "value": values} if patch_type in ("wall", "patch") else {"type": patch_type}
         write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())), conditions)
+
+
+def _inflow(case: ResolvedCase, value: float) -> dict[str, Any]:
+    """An open side: what flows in has `value`, what flows out its own; nothing passes where nothing flows."""
+    if "flow" not in case.physics:
+        return {"type": "zeroGradient"}
+    return {"type": "inletOutlet", "inletValue": f"uniform {value!r}", "value": f"uniform {value!r}"}
 
 
 def _wall_temperature(case: ResolvedCase, side: str) -> dict[str, Any]:
@@ -174,7 +179,7 @@ def _write_system(folder: Path) -> None:
         "gradSchemes": {"default": "Gauss linear"},
         "divSchemes": {"default": "Gauss linear", "div(mass_flux,U)": "Gauss limitedLinearV 1",
                        "div(phi,fraction)": "Gauss vanLeer", "div(compression)": "Gauss linear",
-                       "div(phi,enthalpy)": "Gauss limitedLinear 1"},
+                       "div(phi,enthalpy)": "Gauss limitedLinear 1", "div(phi,enthalpy_upwind)": "Gauss upwind"},
         "laplacianSchemes": {"default": "Gauss linear orthogonal"},
         "interpolationSchemes": {"default": "linear"},
         "snGradSchemes": {"default": "orthogonal"}})
@@ -186,4 +191,4 @@ def _write_system(folder: Path) -> None:
             "p_rghFinal": pressure | {"relTol": 0.0},
             "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},
             "T": {"solver": "PBiCGStab", "preconditioner": "DILU", "tolerance": 1e-12, "relTol": 1e-3}},
-        "PISO": {"pRefCell": 0, "pRefValue": 0}})
+        "PISO": {"p_rghRefCell": 0, "p_rghRefValue": 0}})

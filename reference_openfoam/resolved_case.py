@@ -15,7 +15,7 @@ NEEDS = {
     "flow": ("viscosity",),
     "surface_tension": ("surface_tension",),
     "wetting": ("contact_angle",),
-    "marangoni": ("surface_tension", "surface_tension_slope", "surface_tension_reference_temperature"),
+    "marangoni": ("surface_tension_slope",),
     "recoil": ("boiling_temperature", "vaporization_heat", "molar_mass"),
     "evaporation": ("boiling_temperature", "vaporization_heat", "molar_mass"),
     "radiation": ("emissivity",),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import shutil
@@ -55,17 +56,15 @@ def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False
         grid = make_grid(case, top_of_bodies(case))
         _cut_history(case_folder/"history.csv", start)
     else:
+        grid = make_grid(case, top_of_bodies(case))      # refuses a broken bed before anything is written
         try:
             _clear(output)
             output.mkdir(parents=True, exist_ok=True)
             case_folder.mkdir()
-            grid = case_writer.write_case(case, case_folder)
+            case_writer.write_case(case, case_folder, grid)
+            (case_folder/"resolved.json").write_text(json.dumps(case.data))
         except OSError as error:
             raise Refused(f"{output}: cannot be written: {error.strerror}") from None
-        except Refused:
-            shutil.rmtree(case_folder, ignore_errors=True)
-            raise
-        (case_folder/"resolved.json").write_text(json.dumps(case.data))
     (output/"run.json").unlink(missing_ok=True)
     (case_folder/"outcome.json").unlink(missing_ok=True)
     if threads > 1:
@@ -106,9 +105,15 @@ def _supervise(case: ResolvedCase, program: Path, output: Path, case_folder: Pat
     """Run the solver in its own session, so that a Ctrl-C reaches it once, through this process."""
     with open(output/"log.txt", "a" if append else "w", encoding="utf-8") as log:
         process = subprocess.Popen([str(program), "-case", str(case_folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, errors="replace", env=solver_environment(), start_new_session=True)
-        earlier = {number: signal.signal(number, lambda *_: process.send_signal(signal.SIGTERM))
-                   for number in (signal.SIGINT, signal.SIGTERM)}
+                                   text=True, errors="replace", env=solver_environment(), start_new_session=True,
+                                   preexec_fn=_end_with_parent)
+        interruptions: list[int] = []
+
+        def pass_on(number: int, _frame) -> None:
+            interruptions.append(number)
+            process.send_signal(signal.SIGTERM)
+
+        earlier = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
         complaints: list[str] = []
         listener = threading.Thread(target=_listen, args=(process.stderr, log, complaints))
         listener.start()
@@ -131,7 +136,8 @@ def _supervise(case: ResolvedCase, program: Path, output: Path, case_folder: Pat
     _convert(case, case_folder, snapshots)
     if (case_folder/"history.csv").is_file():
         run_record.copy_beside(case_folder/"history.csv", output/"history.csv")
-    if status == 130:
+    if status == 130 or (interruptions and status < 0):
+        print(f"reference_openfoam: {case.name}: interrupted; --resume goes on from the newest checkpoint", file=sys.stderr)
         return 130
     if not (case_folder/"outcome.json").is_file():
         return _report_failure(case, output, status, complaints)
@@ -140,6 +146,11 @@ def _supervise(case: ResolvedCase, program: Path, output: Path, case_folder: Pat
         print(f"reference_openfoam: {case.name}: stopped: {record['diagnosis']}", file=sys.stderr)
         return 1
     return 0
+
+
+def _end_with_parent() -> None:
+    """In the solver's process: have the kernel send SIGTERM when the parent dies, even if it is killed."""
+    ctypes.CDLL(None).prctl(1, signal.SIGTERM)          # PR_SET_PDEATHSIG
 
 
 def _listen(stream, log, complaints: list[str]) -> None:

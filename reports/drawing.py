@@ -80,6 +80,7 @@ class Section:
     up: np.ndarray
     inside: np.ndarray
     values: dict[str, np.ndarray]
+    points_a_spacing: float
 
     @property
     def extent_mm(self) -> list[float]:
@@ -116,7 +117,7 @@ def section(elements: Elements, spacing: float, normal: str = "y", offset: float
         for name, axis in (("across", first), ("up", second)):
             values[f"velocity_{name}"] = slab.velocity[index, AXIS[axis]].reshape(shape)
         values["speed"] = np.linalg.norm(slab.velocity[index], axis=1).reshape(shape)
-    return Section(across, up, inside.reshape(shape), values)
+    return Section(across, up, inside.reshape(shape), values, spacing / step)
 
 
 def arrows(axes, cut: Section, where: np.ndarray, count: int = 34, colour: str = "#111827") -> float:
@@ -136,11 +137,11 @@ def arrows(axes, cut: Section, where: np.ndarray, count: int = 34, colour: str =
     return greatest
 
 
-def smooth(values: np.ndarray, spacing_cells: float = 2.0) -> np.ndarray:
-    """Values smoothed for contour lines only, so that the lines do not follow the edges of elements."""
+def smooth(values: np.ndarray, width: float) -> np.ndarray:
+    """Values smoothed over `width` grid points, for contour lines only: the lines then do not follow the edges of elements."""
     from scipy.ndimage import gaussian_filter
 
-    return gaussian_filter(values.astype(float), spacing_cells)
+    return gaussian_filter(values.astype(float), width)
 
 
 def nearest_times(times: tuple[float, ...], wanted: list[float]) -> list[int]:

@@ -8,7 +8,7 @@ from matplotlib import pyplot
 
 from .colours import solver_colour
 from .drawing import Picture, arrows, encode, nearest_times, section, smooth
-from .formatting import solver_name
+from .formatting import quantity, solver_name
 from .gather import Case, Run
 
 PAPER_TIMES = (0.01, 0.07)  # s, of the paper's figure 3
@@ -54,8 +54,10 @@ def exact_cap(case: Case) -> Cap | None:
     if angle is None:
         return None
     dimensions = case.settings["dimensions"]
-    content = 4 / 3 * np.pi * sphere["radius"]**3 if dimensions == 3 else np.pi * sphere["radius"]**2
-    return Cap.of_content(content, angle, dimensions)
+    radius = sphere["radius"]
+    above_wall = min(radius, sphere["center"][2] - case.settings["domain"]["lower"][2])
+    cut_off = np.arccos(-above_wall / radius)  # the start's own angle on the wall: what is in the wall is no drop
+    return Cap.of_content(Cap(radius, cut_off, dimensions).content, angle, dimensions)
 
 
 def motion_picture(case: Case) -> Picture:
@@ -67,18 +69,19 @@ def motion_picture(case: Case) -> Picture:
         return picture
     half, foot, spacing = extent(case), centre(case), case.settings["spacing"]
     window = ((foot[0] - half, foot[0] + half), (foot[2], foot[2] + 1.15 * half))
-    canvas, axes = pyplot.subplots(len(runs), 2, figsize=(10, 3.1 * len(runs)), squeeze=False, sharex=True, sharey=True)
+    chosen = {run.solver: nearest_times(run.series.times, list(PAPER_TIMES)) for run in runs}
+    columns = max(map(len, chosen.values()))
+    canvas, axes = pyplot.subplots(len(runs), columns, figsize=(5 * columns, 3.1 * len(runs)), squeeze=False, sharex=True, sharey=True)
     notes = []
     for row, run in zip(axes, runs):
-        for axis, wanted in zip(row, PAPER_TIMES):
-            index = int(np.argmin(np.abs(np.asarray(run.series.times) - wanted)))
+        for axis, index in zip(row, chosen[run.solver]):
             cut = section(run.series.load(index), spacing, "y", foot[1], window)
             axis.imshow(np.where(cut.inside, 1.0, np.nan), origin="lower", extent=cut.extent_mm, cmap="YlOrBr", vmin=0, vmax=3)
             outline(axis, cut, "#92400e")
             greatest = arrows(axis, cut, cut.values["near"], count=38, colour="#334155") if "speed" in cut.values else 0.0
-            time = run.series.times[index]
-            axis.set(title=f"{solver_name(run.solver)}, t = {time:.3g} s", aspect="equal")
-            notes.append(f"{solver_name(run.solver)} at {time:.3g} s: {1e3 * greatest:.3g} mm/s")
+            moment = quantity(run.series.times[index], "s", digits=2)
+            axis.set(title=f"{solver_name(run.solver)}, t = {moment}", aspect="equal")
+            notes.append(f"{solver_name(run.solver)} at {moment}: {1e3 * greatest:.3g} mm/s")
         row[0].set_ylabel("z [mm]")
     for axis in axes[-1]:
         axis.set_xlabel("x [mm]")
@@ -91,7 +94,7 @@ def motion_picture(case: Case) -> Picture:
 
 def outline(axis, cut, colour: str, **style) -> None:
     """The drop's outline on a section."""
-    drop = smooth(cut.inside)
+    drop = smooth(np.where(cut.values["near"], cut.values["fraction"], 0.0), 0.7 * cut.points_a_spacing)
     if drop.max() > 0.5:
         axis.contour(1e3 * cut.across, 1e3 * cut.up, drop, levels=[0.5], colors=colour, linewidths=1.5, **style)
 
@@ -106,17 +109,19 @@ def shape_picture(case: Case) -> Picture:
     half, foot, cap = extent(case), centre(case), exact_cap(case)
     window = ((foot[0] - half, foot[0] + half), (foot[2], foot[2] + 1.15 * half))
     canvas, axis = pyplot.subplots(figsize=(7, 3.4))
+    top = cap.height if cap is not None else 0.0
     for run in runs:
         cut = section(run.series.load(len(run.series) - 1), case.settings["spacing"], "y", foot[1], window)
+        top = max(top, cut.up[cut.inside.any(axis=1)].max(initial=foot[2]) - foot[2])
         outline(axis, cut, solver_colour(run.solver))
-        axis.plot([], [], color=solver_colour(run.solver), label=f"{solver_name(run.solver)}, t = {run.series.times[-1]:.3g} s")
+        axis.plot([], [], color=solver_colour(run.solver), label=f"{solver_name(run.solver)}, t = {quantity(run.series.times[-1], 's', digits=3)}")
     if cap is not None:
         angle = np.linspace(-cap.contact_angle, cap.contact_angle, 300)
         x, z = cap.radius * np.sin(angle), cap.height - cap.radius * (1 - np.cos(angle))
         axis.plot(1e3 * (foot[0] + x), 1e3 * (foot[2] + z), color="#111827", linestyle="--", linewidth=1.2,
                   label=f"exact cap, {np.degrees(cap.contact_angle):.3g}°")
     axis.axhline(1e3 * foot[2], color="#6b7280", linewidth=1)
-    axis.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", ylim=(1e3 * foot[2] - 0.05, 1e3 * (foot[2] + 0.62 * half)))
+    axis.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", ylim=(1e3 * foot[2] - 0.05, 1e3 * (foot[2] + 1.6 * top)))
     axis.legend(loc="upper right", fontsize=8)
     picture.image = encode(canvas)
     picture.caption = ("Settled shape in the plane through the axis. The exact cap has the drop's volume and the prescribed angle; the "

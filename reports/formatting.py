@@ -40,7 +40,7 @@ def scale_of(unit: str, size: float) -> tuple[float, str]:
         return 1e12, "μm²"
     if unit == "s":
         return (1e3, "ms") if abs(size) < 1 else (1.0, "s")
-    return 1.0, "" if unit in ("1", "-") else unit
+    return 1.0, "" if unit in ("1", "-") else unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
 
 
 def number(value: float | None, digits: int = 4) -> str:

@@ -8,7 +8,7 @@ from matplotlib import pyplot
 
 from .colours import solver_colour
 from .drawing import Picture, arrows, encode, section
-from .formatting import solver_name
+from .formatting import number, quantity, solver_name
 from .gather import Case
 
 
@@ -33,19 +33,19 @@ def profile_picture(case: Case) -> Picture:
     canvas, axis = pyplot.subplots(figsize=(6.2, 3.9))
     eta = np.linspace(0, 1, 200)
     axis.plot(1e3 * velocity(eta, stress, depth, viscosity), eta, color="#111827", linestyle="--", linewidth=1.2, label="exact")
-    for number, run in enumerate(runs):
+    for position, run in enumerate(runs):
         elements = run.series.load(len(run.series) - 1)
         band = (np.abs(elements.position[:, 0] - middle) < 2 * spacing) & (elements.fraction > 0.5)
         height = (elements.position[band, 2] - body["lower"][2]) / depth
-        axis.plot(1e3 * elements.velocity[band, 0], height, linestyle="none", marker="os"[number % 2], markersize=3.5, alpha=0.7,
-                  color=solver_colour(run.solver), label=f"{solver_name(run.solver)}, t = {run.series.times[-1]:.3g} s")
+        axis.plot(1e3 * elements.velocity[band, 0], height, linestyle="none", marker="os"[position % 2], markersize=3.5, alpha=0.7,
+                  color=solver_colour(run.solver), label=f"{solver_name(run.solver)}, t = {quantity(run.series.times[-1], 's', digits=3)}")
     axis.axvline(0, color="#9ca3af", linewidth=0.8)
     axis.set(xlabel="Velocity along the layer [mm/s]", ylabel="Height over depth, η")
     axis.grid(True)
     axis.legend(fontsize=8)
     picture.image = encode(canvas)
     picture.caption = ("Velocity of every element within two spacings of the middle. Exact: u = (τH/4μ)(3η² − 2η), with "
-                       f"τ = {stress:.3g} N/m² and H = {1e3 * depth:.3g} mm; it crosses zero at η = 2/3.")
+                       f"τ = {number(stress, 3)} N/m² and H = {1e3 * depth:.3g} mm; it crosses zero at η = 2/3.")
     return picture
 
 
@@ -56,7 +56,7 @@ def flow_picture(case: Case) -> Picture:
     if not runs:
         picture.missing = "no completed run with snapshots"
         return picture
-    body, depth, _ = layer(case)
+    body, depth, stress = layer(case)
     window = ((body["lower"][0], body["upper"][0]), (body["lower"][2], body["upper"][2] + 0.05 * depth))
     canvas, axes = pyplot.subplots(len(runs), 1, figsize=(10, 1.9 * len(runs)), squeeze=False, sharex=True)
     for axis, run in zip(axes[:, 0], runs):
@@ -66,9 +66,10 @@ def flow_picture(case: Case) -> Picture:
                             cmap="viridis", vmin=0, interpolation="nearest", aspect="auto")
         canvas.colorbar(image, ax=axis, pad=0.015, aspect=9, label="Speed [mm/s]")
         arrows(axis, cut, cut.inside, count=40, colour="white")
-        axis.set(title=f"{solver_name(run.solver)}, t = {run.series.times[-1]:.3g} s", ylabel="z [mm]")
+        axis.set(title=f"{solver_name(run.solver)}, t = {quantity(run.series.times[-1], 's', digits=3)}", ylabel="z [mm]")
     axes[-1, 0].set_xlabel("x [mm]")
     canvas.tight_layout()
     picture.image = encode(canvas)
-    picture.caption = "The surface is driven to the cold side (left: cold, right: hot, if σ falls with temperature) and returns below."
+    picture.caption = (f"The temperature gradient pulls the surface to the {'left' if stress < 0 else 'right'}; the closed ends send the "
+                       "liquid back below.")
     return picture

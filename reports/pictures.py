@@ -10,7 +10,7 @@ from cupel.measures.registry import MeasureError
 
 from . import drops, layers, tracks
 from .drawing import Picture, crop
-from .formatting import solver_name
+from .formatting import quantity, solver_name
 from .gather import Case
 from .views import draw
 
@@ -61,15 +61,16 @@ def pictures_of(cases: list[Case]) -> dict[str, list[Picture]]:
 def views_of(case: Case, jobs: list[dict], trouble: str) -> list[Picture]:
     """The drawn views of a case as pictures, a picture a view."""
     kind = kind_of(case)
-    ended = {run.solver: "" if run.status == "completed" else f" (run {run.status})" for run in case.runs}
+    ended = {"bed": ""} | {run.solver: "" if run.status == "completed" else f" (run {run.status})" for run in case.runs}
     pictures = []
     for job in jobs:
         _, solver, label = job["key"].rsplit(".", 2)
         what, paper = describe_view(kind, solver, label, case)
-        moment = f"t = {1e3 * job['time']:.3g} ms" if kind == "track" else f"t = {job['time']:.3g} s"
-        picture = Picture(job["key"].replace(".", "-"), f"{what}, {moment}{ended[solver]}",
-                          f"{what} of {case.name} in {solver_name(solver)}", paper=paper, wide=False,
-                          view_of=solver_name(solver), of_power=label == "final")
+        moment = f"t = {quantity(job['time'], 's', digits=3) if job['time'] else '0'}"
+        caption = what if solver == "bed" else f"{what}, {moment}{ended[solver]}"
+        picture = Picture(job["key"].replace(".", "-"), caption,
+                          f"{case.name}, {solver_name(solver)}: {what}", paper=paper, wide=False,
+                          view_of="Powder bed" if solver == "bed" else solver_name(solver), of_power=label == "final")
         path = Path(job["output"])
         if path.exists():
             picture.image = crop(path)
@@ -83,8 +84,10 @@ def describe_view(kind: str, solver: str, label: str, case: Case) -> tuple[str, 
     """What a view shows, and the figure of the paper that it answers to ('' if none)."""
     if kind == "drop":
         return ("start", "figure 1") if label == "0" else ("evolution", "figure 2")
+    if label == "spheres":
+        return "spheres of the powder bed that both solvers read, dark 15 μm to light 45 μm in diameter", "figure 4"
     if label == "start":
-        return "powder bed", "figure 4"
+        return "start", ""
     if label == "final":
         return f"{case.power:g} W", "figure 7" if solver == "sph" else "figure 8"
     return f"{label.removeprefix('scan')} % of the scan", "figure 5" if "figure 5" in case.settings.get("paper", []) else ""

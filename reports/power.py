@@ -31,7 +31,7 @@ def power_picture(cases: list[Case]) -> Picture | None:
     powers = sorted({case.power for case in cases if case.power is not None})
     if not powers:
         return None
-    picture = Picture("power", "", "Melt-pool width and depth against laser power, a line for each solver", paper="figure 9")
+    picture = Picture("width-against-power", "", "Melt-pool width and depth against laser power, a line for each solver", paper="figure 9")
     points = power_points(cases)
     if not any(points.values()):
         picture.missing = "no completed track has a measured melt pool yet"

@@ -10,6 +10,7 @@ from .drawing import Picture, arrows, encode, section, smooth
 from .formatting import solver_name
 from .gather import Case, Run
 
+GRAIN_RANGE = (15.0, 45.0)  # μm, of the colours of grains
 SHARES_OF_SCAN = (0.25, 0.5, 0.75, 1.0)  # instants of the evolution, as the paper's four
 
 
@@ -34,7 +35,7 @@ def view_jobs(case: Case) -> list[dict]:
     box = [domain["lower"], [*domain["upper"][:2], top]]
     common = {"spacing": case.settings["spacing"], "box": box, "colour_map": "temperature", "range": TEMPERATURE_RANGE,
               "azimuth": -28, "elevation": 38}
-    jobs = []
+    jobs = bed_jobs(case, common)
     for run in case.shown:
         instants = [("start", 0, "temperature")]
         for share in SHARES_OF_SCAN:
@@ -47,10 +48,22 @@ def view_jobs(case: Case) -> list[dict]:
     return jobs
 
 
+def bed_jobs(case: Case, common: dict) -> list[dict]:
+    """One view of the powder bed's spheres, which both solvers read; none if the case has no bed."""
+    beds = [body for body in case.settings["bodies"] if body["shape"] == "powder_bed"]
+    domain = case.settings["domain"]
+    return [
+        common | {"key": f"{case.name}.bed.spheres", "file": body["file"], "colour": "diameter", "colour_map": "cividis",
+                  "range": GRAIN_RANGE, "time": 0.0, "floor": True, "zoom": 1.3, "elevation": 48,
+                  "box": [[*domain["lower"][:2], body["lower"][2]], [*domain["upper"][:2], body["upper"][2]]]}
+        for body in beds[:1]
+    ]
+
+
 def melt_contours(axes, cut, melting: float, colour: str = "#0b0b0b") -> None:
     """The melting isotherm on a section, inside the material."""
     if "temperature" in cut.values:
-        shown = np.where(cut.inside, smooth(cut.values["temperature"]), np.nan)
+        shown = np.where(cut.inside, smooth(cut.values["temperature"], 0.5 * cut.points_a_spacing), np.nan)
         if np.nanmax(shown, initial=0) > melting:
             axes.contour(1e3 * cut.across, 1e3 * cut.up, shown, levels=[melting], colors=colour, linewidths=1.1)
 
@@ -121,7 +134,7 @@ def across_picture(case: Case) -> Picture:
         axis.imshow(shown, origin="lower", extent=cut.extent_mm, cmap=colour_map("temperature"), vmin=TEMPERATURE_RANGE[0],
                     vmax=TEMPERATURE_RANGE[1], interpolation="nearest")
         for target, colour in ((axis, "#0b0b0b"), (axes[-1], solver_colour(run.solver))):
-            fused = smooth(np.where(cut.inside, cut.values[field], 300.0))
+            fused = smooth(np.where(cut.inside, cut.values[field], 300.0), 0.5 * cut.points_a_spacing)
             if fused.max() > melting:
                 target.contour(1e3 * cut.across, 1e3 * cut.up, fused, levels=[melting], colors=colour, linewidths=1.6)
                 drawn = True

@@ -3,7 +3,7 @@
 VTK of this distribution needs an X server, so `draw` starts this module under one (xvfb-run) as a program of its own; a
 view that cannot be drawn is left out with a reason, and the page says so.
 
-A job is {"file", "output", "spacing", "colour": "temperature"|"speed"|"peak_temperature"|"material", "range": [low, high],
+A job is {"file", "output", "spacing", "colour": "temperature"|"speed"|"peak_temperature"|"diameter"|"material", "range": [low, high],
 "box": [[x, y, z], [x, y, z]], "azimuth", "elevation", "zoom", "floor": bool, "colour_map": name}.
 """
 
@@ -58,13 +58,14 @@ def main(path: str) -> int:
 
 def draw_one(job: dict) -> None:
     """Draws one view into job["output"] (PNG, transparent nowhere, white behind)."""
-    from vtkmodules import vtkInteractionStyle, vtkRenderingFreeType, vtkRenderingOpenGL2  # noqa: F401 (they register)
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (registers the renderer)
     from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
-    actor = particles(job) if job["file"].endswith(".vtp") else surface(job)
+    draw_kind = {".vtp": particles, ".vtu": surface, ".csv": grains}[Path(job["file"]).suffix]
+    actor = draw_kind(job)
     renderer.AddActor(actor)
     if job.get("floor"):
         renderer.AddActor(floor(job))
@@ -120,11 +121,7 @@ def add_array(arrays, name: str, values: np.ndarray) -> None:
 
 def particles(job: dict):
     """Primary particles as spheres that just touch their neighbours."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkRenderingCore import vtkActor
-    from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
+    from vtkmodules.util.numpy_support import vtk_to_numpy
 
     data = read(job["file"])
     arrays = data.GetPointData()
@@ -135,18 +132,38 @@ def particles(job: dict):
     keep &= ((position >= lower) & (position <= upper)).all(axis=1)
     if not keep.any():
         raise ValueError("no particle of the primary material in the box")
-    chosen = vtkPolyData()
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(position[keep], deep=True))
-    chosen.SetPoints(points)
-    cells = vtkCellArray()
-    number = np.arange(points.GetNumberOfPoints(), dtype=np.int64)
+    colour = colour_values(arrays, len(position), job)[keep]
+    return spheres(job, position[keep], np.full(keep.sum(), 0.56 * job["spacing"]), colour)
+
+
+def grains(job: dict):
+    """The spheres of a powder bed (x_m, y_m, z_m, radius_m), coloured by their diameter in μm."""
+    rows = [line for line in Path(job["file"]).read_text().splitlines() if line and not line.startswith("#")]
+    table = np.loadtxt(rows[1:], delimiter=",", ndmin=2)
+    if table.shape[1] != 4 or rows[0].split(",")[3] != "radius_m":
+        raise ValueError(f"{job['file']} is no table of spheres")
+    return spheres(job, table[:, :3], table[:, 3], 2e6 * table[:, 3])
+
+
+def spheres(job: dict, position: np.ndarray, radius: np.ndarray, colour: np.ndarray):
+    """Spheres at `position` (n, 3) with `radius` (n) [m] and colour values (n)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkRenderingCore import vtkActor
+    from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
+
+    points, cells, cloud = vtkPoints(), vtkCellArray(), vtkPolyData()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(position, dtype=float), deep=True))
+    number = np.arange(len(position), dtype=np.int64)
     cells.SetCells(len(number), numpy_to_vtkIdTypeArray(np.column_stack([np.ones_like(number), number]).ravel(), deep=True))
-    chosen.SetVerts(cells)
-    add_array(chosen.GetPointData(), "colour", colour_values(arrays, len(position), job)[keep])
+    cloud.SetPoints(points)
+    cloud.SetVerts(cells)
+    add_array(cloud.GetPointData(), "colour", colour)
+    add_array(cloud.GetPointData(), "radius", radius)
     mapper = vtkOpenGLSphereMapper()
-    mapper.SetInputData(chosen)
-    mapper.SetRadius(0.56 * job["spacing"])
+    mapper.SetInputData(cloud)
+    mapper.SetScaleArray("radius")
     return coloured(vtkActor(), mapper, job)
 
 

@@ -16,6 +16,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
+BED = Path(__file__).resolve().parents[1] / "validation_cases" / "common" / "bed_seed1.csv"
 STEEL = {
     "density": 6900, "density_solid": 7200, "viscosity": 6e-3, "specific_heat": 780, "specific_heat_solid": 700,
     "conductivity": 18.1, "conductivity_solid": 36.7, "solidus": 1673, "liquidus": 1773, "melting_temperature": 1723,
@@ -98,7 +99,9 @@ def resolved_track(power: float, spacing: float = 4e-5) -> dict:
                    | {"z_max": {"kind": "open", "temperature": None}}},
         "gravity": [0, 0, 0], "initial": {"temperature": 300, "temperature_gradient": [0, 0, 0]},
         "bodies": [{"shape": "box", "material": "steel", "state": "solid", "lower": [0, -3.6e-4, -3.6e-4],
-                    "upper": [1.6e-3, 3.6e-4, 0]}],
+                    "upper": [1.6e-3, 3.6e-4, 0]},
+                   {"shape": "powder_bed", "material": "steel", "state": "solid", "file": str(BED),
+                    "lower": [0, -3.6e-4, 0], "upper": [1.6e-3, 3.6e-4, 5e-5]}],
         "laser": {"power": power, "speed": 0.15, "spot_radius": 8e-5, "absorptivity": 0.35,
                   "path": {"from": [3e-4, 0], "to": [1.3e-3, 0]}, "start": 0.0},
         "time": {"end": 6.6e-3, "output_interval": 2.2e-3},

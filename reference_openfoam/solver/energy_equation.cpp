@@ -72,7 +72,17 @@ EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
     const dimensionedScalar surrounding_capacity(
         "surrounding_capacity", heat_capacity_dimensions, scene_.surrounding.density*scene_.surrounding.specific_heat);
     autoPtr<surfaceScalarField> other_flux;
-    if (scene_.physics.flow) other_flux.reset(new surfaceScalarField("other_flux", fields_.flow->flux - fields_.flow->fraction_flux));
+    autoPtr<volScalarField> sharper_convection;
+    if (scene_.physics.flow)
+    {
+        const surfaceScalarField& primary_flux = fields_.flow->fraction_flux;
+        other_flux.reset(new surfaceScalarField("other_flux", fields_.flow->flux - primary_flux));
+        // what a limited linear scheme has over upwind, for the primary material, from the old T
+        const volScalarField enthalpy(map_field(T, "enthalpy", specific_energy_dimensions,
+            [&primary](scalar temperature) { return primary.enthalpy(temperature); }));
+        sharper_convection.reset(new volScalarField("sharper_convection", primary_density*(
+            fvc::div(primary_flux, enthalpy, "div(phi,enthalpy)") - fvc::div(primary_flux, enthalpy, "div(phi,enthalpy_upwind)"))));
+    }
 
     const scalar tolerance = scene_.numerics.get<scalar>("temperature_tolerance");
     const label limit = scene_.numerics.get<label>("energy_iterations");
@@ -88,25 +98,25 @@ EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
             fvm::Sp(heat_capacity/step, T) - heat_capacity*last_T/step + (last_enthalpy - old_enthalpy)/step
           - fvm::laplacian(k, T)
         );
-        scalar outflow_correction = 0;
-        autoPtr<surfaceScalarField> capacity_flux;
+        autoPtr<surfaceScalarField> capacity_flux, known_flux;
         if (scene_.physics.flow)
         {
+            // upwind enthalpy flux linearised about the last T: known part, and capacity times the new T
             const surfaceScalarField& primary_flux = fields_.flow->fraction_flux;
             const volScalarField slope(map_field(T, "slope", specific_energy_dimensions/dimTemperature,
                 [&primary](scalar temperature) { return primary.enthalpy_slope(temperature); }));
             const volScalarField enthalpy(map_field(T, "enthalpy", specific_energy_dimensions,
                 [&primary](scalar temperature) { return primary.enthalpy(temperature); }));
+            const upwind<scalar> with_primary(mesh, primary_flux);
             capacity_flux.reset(new surfaceScalarField("capacity_flux",
-                primary_density*primary_flux*upwind<scalar>(mesh, primary_flux).interpolate(slope)
-              + surrounding_capacity*other_flux()));
-            const volScalarField convection("convection",
-                primary_density*fvc::div(primary_flux, enthalpy, "div(phi,enthalpy)")
-              + surrounding_capacity*fvc::div(other_flux(), T, "div(phi,enthalpy)"));
-            rates.convected_out = volume_integral(convection.primitiveField(), mesh);
+                primary_density*primary_flux*with_primary.interpolate(slope) + surrounding_capacity*other_flux()));
+            known_flux.reset(new surfaceScalarField("known_flux",
+                primary_density*primary_flux*with_primary.interpolate(enthalpy)
+              + surrounding_capacity*other_flux()*upwind<scalar>(mesh, other_flux()).interpolate(T)
+              - capacity_flux()*upwind<scalar>(mesh, capacity_flux()).interpolate(T)));
             fv::gaussConvectionScheme<scalar> scheme(mesh, capacity_flux(),
                 tmp<surfaceInterpolationScheme<scalar>>(new upwind<scalar>(mesh, capacity_flux())));
-            equation += convection + scheme.fvmDiv(capacity_flux(), T) - scheme.fvcDiv(capacity_flux(), last_T);
+            equation += fvc::surfaceIntegrate(known_flux()) + scheme.fvmDiv(capacity_flux(), T) + sharper_convection();
         }
         if (laser_.valid()) equation -= laser_->power_density();
         if (has_losses_)
@@ -119,18 +129,17 @@ EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
         equation.solve();
 
         // what crossed the borders, at the temperature that the linear system was solved for: exact for the step taken
-        rates.conducted_in = 0;
+        rates.conducted_in = rates.convected_out = 0;
         forAll(T.boundaryField(), patch)
         {
             const fvPatchScalarField& faces = T.boundaryField()[patch];
             if (faces.coupled() || faces.empty()) continue;
             rates.conducted_in += sum(k.boundaryField()[patch]*faces.snGrad()*mesh.magSf().boundaryField()[patch]);
-            if (capacity_flux.valid())
-                outflow_correction += sum(capacity_flux().boundaryField()[patch]*(faces - last_T.boundaryField()[patch]));
+            if (scene_.physics.flow)
+                rates.convected_out += sum(known_flux().boundaryField()[patch] + capacity_flux().boundaryField()[patch]*faces);
         }
         reduce(rates.conducted_in, sumOp<scalar>());
-        reduce(outflow_correction, sumOp<scalar>());
-        rates.convected_out += outflow_correction;
+        reduce(rates.convected_out, sumOp<scalar>());
         if (has_losses_)
             rates.surface_losses = volume_integral(
                 losses_.loss() + losses_.slope()*(T.primitiveField() - last_T.primitiveField()), mesh);

@@ -4,7 +4,8 @@
 ///
 /// Each iteration linearises h about the last T, solves for T, takes the enthalpy that the solution means and inverts it for
 /// the mixture. The step conserves energy exactly (to the linear solver's residual) however many iterations it takes.
-/// Convection is implicit upwind with the difference to the higher scheme deferred; explicit convection makes hot gas pockets.
+/// Convection is implicit upwind, with what a limited linear scheme has over it added for the primary material from the old T;
+/// explicit convection throughout makes hot gas pockets.
 #pragma once
 
 #include "interface_geometry.hpp"

@@ -14,9 +14,9 @@ InterfaceGeometry::InterfaceGeometry(const Scene& scene, Fields& fields)
     update();
 }
 
-tmp<surfaceVectorField> InterfaceGeometry::face_normals(volScalarField& smooth) const
+tmp<surfaceVectorField> InterfaceGeometry::face_normals(volScalarField& smooth, const volVectorField& gradient) const
 {
-    const surfaceVectorField face_gradient(fvc::interpolate(fvc::grad(smooth)));
+    const surfaceVectorField face_gradient(fvc::interpolate(gradient));
     tmp<surfaceVectorField> normals(new surfaceVectorField("unit_normal", face_gradient/(mag(face_gradient) + tiny_gradient_)));
     if (scene_.physics.wetting) apply_contact_angle(normals.ref(), face_gradient, smooth, scene_, fields_);
     return normals;
@@ -25,8 +25,8 @@ tmp<surfaceVectorField> InterfaceGeometry::face_normals(volScalarField& smooth) 
 void InterfaceGeometry::update()
 {
     const fvMesh& mesh = fields_.mesh;
-    const tmp<surfaceVectorField> normals = face_normals(fields_.fraction);
     gradient_.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields_.fraction)));
+    const tmp<surfaceVectorField> normals = face_normals(fields_.fraction, gradient_());
     normal_flux_.reset(new surfaceScalarField("normal_flux", normals() & mesh.Sf()));
     if (!scene_.physics.surface_tension) return;
 
@@ -43,7 +43,7 @@ void InterfaceGeometry::update()
             smooth.primitiveFieldRef() = fvc::average(fvc::interpolate(smooth))().primitiveField();
             smooth.correctBoundaryConditions();
         }
-        const surfaceScalarField smooth_flux(face_normals(smooth) & mesh.Sf());
+        const surfaceScalarField smooth_flux(face_normals(smooth, fvc::grad(smooth)) & mesh.Sf());
         curvature = -fvc::div(smooth_flux);
     }
     const volScalarField weight("interface_weight", map_field(fields_.fraction, "interface_weight", dimless, [](scalar share)

@@ -26,7 +26,7 @@ public:
 
 private:
     /// n̂ on faces from the gradient of `smooth`, with the contact angle at walls if the scene has wetting.
-    tmp<surfaceVectorField> face_normals(volScalarField& smooth) const;
+    tmp<surfaceVectorField> face_normals(volScalarField& smooth, const volVectorField& gradient) const;
 
     const Scene& scene_;
     Fields& fields_;

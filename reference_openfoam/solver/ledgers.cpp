@@ -58,6 +58,20 @@ void Ledgers::book_energy(const EnergyRates& rates, scalar step)
     book(-rates.convected_out*step, energy_in_, energy_out_);
 }
 
+std::string Ledgers::summary() const
+{
+    char text[160];
+    std::snprintf(text, sizeof text, ", primary volume %.9g m3", primary_volume());
+    std::string result = text;
+    if (energy_)
+    {
+        std::snprintf(text, sizeof text, ", energy in %.6g J, out %.6g J (%d iterations)", energy_in_, energy_out_,
+                      int(energy_->iterations()));
+        result += text;
+    }
+    return result;
+}
+
 std::string Ledgers::json() const
 {
     const scalar volume = primary_volume(), density = scene_.primary.density;

@@ -21,6 +21,8 @@ public:
 
     /// The ledgers as one JSON object.
     std::string json() const;
+    /// The state of the ledgers in a few words, for the log.
+    std::string summary() const;
     scalar primary_volume() const;
     scalar laser_expected() const { return laser_expected_; }
 

@@ -23,7 +23,7 @@ PrimaryMaterial::PrimaryMaterial(const dictionary& entries)
     surface_tension_at_reference(entries.getOrDefault<scalar>("surface_tension", 0)),
     surface_tension_slope(entries.getOrDefault<scalar>("surface_tension_slope", 0)),
     surface_tension_reference_temperature(entries.getOrDefault<scalar>("surface_tension_reference_temperature", 0)),
-    surface_tension_minimum(entries.getOrDefault<scalar>("surface_tension_minimum", 0)),
+    surface_tension_minimum(entries.getOrDefault<scalar>("surface_tension_minimum", -GREAT)),
     contact_angle(entries.getOrDefault<scalar>("contact_angle", 0)),
     boiling_temperature(entries.getOrDefault<scalar>("boiling_temperature", 1)),
     vaporization_heat(entries.getOrDefault<scalar>("vaporization_heat", 0)),

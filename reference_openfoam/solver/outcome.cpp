@@ -15,6 +15,15 @@ scalar seconds_now()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Greatest memory that this process has held [bytes]. (getrusage would count the parent's before exec.)
+double peak_bytes()
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.compare(0, 6, "VmHWM:") == 0) return 1024*std::stod(line.substr(6));
+    return 0;
+}
+
 std::string escaped(const std::string& text)
 {
     std::string result;
@@ -89,14 +98,13 @@ void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rat
     char text[200];
     std::snprintf(text, sizeof text, "{\"progress\":{\"time\":%.9g,\"end\":%.9g,\"step\":%d,\"wall_s\":%.1f}}", time, scene_.end_time,
                   int(state.steps), state.wall_seconds + wall_seconds());
-    std::cout << text << std::endl;
+    std::cout << text << '\n' << "t = " << time << " s, step " << state.steps << " of " << step << " s" << ledgers.summary()
+              << std::endl;
 }
 
 void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers, const TimeStep& time_step,
                      const RunState& state) const
 {
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
     const std::string ledger_text = ledgers.json();
     const label cells = returnReduce(fields_.mesh.nCells(), sumOp<label>());
     const scalar cpu = state.cpu_seconds + cpu_seconds();
@@ -107,7 +115,7 @@ void Outcome::finish(const std::string& status, const std::string& diagnosis, co
          << state.wall_seconds + wall_seconds() << ", \"cpu_s\": " << cpu << ", \"threads\": " << Pstream::nProcs()
          << ", \"steps\": " << state.steps << ", \"elements\": " << cells
          << ", \"updates_per_core_s\": " << scalar(cells)*state.steps/max(cpu, SMALL)
-         << ", \"peak_bytes\": " << 1024*usage.ru_maxrss << ", \"time_step_binding\": {";
+         << ", \"peak_bytes\": " << static_cast<long>(peak_bytes()) << ", \"time_step_binding\": {";
     const char* separator = "";
     for (const auto& entry : time_step.binding())
     {

@@ -14,8 +14,14 @@ TimeStep::TimeStep(const Scene& scene, const Fields& fields)
     scene_(scene),
     fields_(fields),
     smallest_cell_(scene.spacing),
+    gravity_speed_(0),
     last_(1e-3*scene.output_interval)
-{}
+{
+    if (!scene.physics.flow || !scene.physics.gravity) return;
+    // the difference of g·x over the scene is g H
+    const scalarField& potential = fields.flow->gravity_potential.primitiveField();
+    gravity_speed_ = Foam::sqrt(gMax(potential) - gMin(potential));
+}
 
 scalar TimeStep::flux_rate(scalar low, scalar high) const
 {
@@ -48,6 +54,10 @@ scalar TimeStep::next(scalar time, scalar target)
             consider("capillary", factor*Foam::sqrt((primary.density + surrounding.density)*pow3(smallest_cell_)
                                                     /(4*constant::mathematical::pi*primary.surface_tension_at_reference)));
         }
+        consider("viscous", factor*sqr(smallest_cell_)/max(max(primary.viscosity/primary.density,
+                                                               surrounding.viscosity/surrounding.density), VSMALL));
+        if (scene_.physics.gravity)
+            consider("gravity", factor*scene_.numerics.get<scalar>("courant_limit")*smallest_cell_/max(gravity_speed_, VSMALL));
         consider("courant", factor*scene_.numerics.get<scalar>("courant_limit")/max(flux_rate(-GREAT, GREAT), VSMALL));
         consider("interface_courant",
                  factor*scene_.numerics.get<scalar>("interface_courant_limit")/max(flux_rate(0.01, 0.99), VSMALL));

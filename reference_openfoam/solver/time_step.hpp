@@ -2,6 +2,8 @@
 ///
 ///   capillary     √((ρ₁ + ρ₂) Δx³/(4πσ))        (Brackbill 1992): the shortest capillary wave is followed
 ///   Courant       C Δx/|u| over all cells, and a smaller C over cells at the interface
+///   viscous       Δx²/ν of the more mobile fluid: the pressure correctors then converge on the implicit viscous term
+///   gravity       C Δx/√(g H), H the scene's height: gravity waves are followed
 ///   laser         a quarter of the spot radius of travel
 ///   diffusion     Δx²/(2a) of the liquid: only when nothing moves (accuracy; the scheme itself is implicit)
 ///
@@ -36,7 +38,7 @@ private:
 
     const Scene& scene_;
     const Fields& fields_;
-    scalar smallest_cell_, last_;
+    scalar smallest_cell_, gravity_speed_, last_;
     std::map<std::string, label> binding_;
 };
 }

@@ -109,8 +109,8 @@ def data_file(bed: Bed, centers: np.ndarray, diameters: np.ndarray, height: floa
     return "\n".join(lines) + "\n"
 
 
-def input_script(bed: Bed, height: float) -> str:
-    """The LIGGGHTS script: type 1 is a grain, type 2 the plate."""
+def input_script(bed: Bed, height: float, rest_energy: float) -> str:
+    """The LIGGGHTS script: type 1 is a grain, type 2 the plate; ends when the kinetic energy is below `rest_energy` [J]."""
     table = bed.table
     grain, plate = table["grain"], table["plate"]
     of_grain, of_plate = table["grain_contact"], table["plate_contact"]
@@ -150,18 +150,13 @@ variable round loop {LONGEST_SETTLING}
 label settle
 run {chunk}
 variable energy equal ke
-variable limit equal {0.5 * REST_SPEED**2 * grain_mass_total(bed):.9e}
+variable limit equal {rest_energy:.9e}
 if "${{energy}} < ${{limit}}" then "jump SELF settled"
 next round
 jump SELF settle
 label settled
 write_dump all custom settled.dump id x y z radius vx vy vz modify sort id format "%d %.12e %.12e %.12e %.12e %.12e %.12e %.12e"
 """
-
-
-def grain_mass_total(bed: Bed) -> float:
-    """Mass of all grains that rain [kg]."""
-    return float(bed.table["grain"]["density"] * np.pi / 6 * np.sum(rain(bed)[1] ** 3))
 
 
 def find_liggghts() -> str:
@@ -192,7 +187,8 @@ def settle(bed: Bed) -> np.ndarray:
     """Spheres (n, 4: x, y, z, radius) [m] at rest on the plate, before the blade. `CupelError` where they do not rest."""
     centers, diameters = rain(bed)
     height = centers[:, 2].max() + bed.table["diameter"]["maximum"]
-    rows = run_liggghts(input_script(bed, height), data_file(bed, centers, diameters, height))
+    mass = bed.table["grain"]["density"] * np.pi / 6 * np.sum(diameters**3)
+    rows = run_liggghts(input_script(bed, height, 0.5 * mass * REST_SPEED**2), data_file(bed, centers, diameters, height))
     if len(rows) != len(diameters):
         raise CupelError(f"LIGGGHTS lost {len(diameters) - len(rows)} grains of {len(diameters)}")
     speed = float(np.sqrt(np.average((rows[:, 4:7] ** 2).sum(axis=1), weights=rows[:, 3] ** 3)))
@@ -228,7 +224,7 @@ def liggghts_version() -> str:
     """How LIGGGHTS calls itself."""
     said = subprocess.run([find_liggghts(), "-help"], capture_output=True, text=True).stdout
     first = next((line for line in said.splitlines() if line.startswith("LIGGGHTS")), "LIGGGHTS")
-    return first.split(",")[0].replace("(Version ", "")
+    return first.split(",")[0].split("Version ")[-1]
 
 
 def bed_text(bed: Bed, spheres: np.ndarray, case: str) -> str:

@@ -18,7 +18,7 @@ from .comparison import fill_solver_references
 from .display import make_display
 from .errors import CupelError
 from .jobs import Job
-from .layout import CANONICAL_CASES, LEVELS, SOLVERS, ResultPlace, results_root
+from .layout import CANONICAL_CASES, LEVELS, SOLVERS, ResultPlace, places, results_root
 from .runner import Runner
 
 app = typer.Typer(
@@ -49,7 +49,7 @@ def run(
     overrides: Optional[List[str]] = typer.Option(None, "--set", metavar="KEY=VALUE", help="Override a value of the case file."),
     variant: Optional[str] = VARIANT,
     results: Optional[Path] = RESULTS,
-    external: Optional[Path] = typer.Option(None, "--from", metavar="DIR", help="With --solver external: folder of results to take in."),
+    external: Optional[Path] = typer.Option(None, "--from", metavar="DIR", help="With --solver external: results to take in."),
     report: bool = typer.Option(True, help="Write the report at the end."),
 ) -> int:
     """Run cases, measure, compare, and write the report."""
@@ -78,7 +78,7 @@ def run(
         return 130
     bad = [job for job in work if not job.good]
     if report:
-        write_report(root, sorted({job.place.case for job in work}), variant)
+        write_report(root, [job.place.case for job in work] + [place.case for place in places(root, variants=[variant])], variant)
     if bad:
         raise CupelError(f"{len(bad)} of {len(work)} runs did not complete: {', '.join(str(job.place) for job in bad)}")
     return 0
@@ -162,6 +162,6 @@ def write_report(root: Path, names: list[str] | None = None, variant: str = "coa
     """Writes the report page and prints its path."""
     from reports.page import write_page
 
-    page = write_page(root, names, variant)
+    page = write_page(root, None if names is None else list(dict.fromkeys(names)), variant)
     print(page)
     return 0

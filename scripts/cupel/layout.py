@@ -10,7 +10,7 @@ from .errors import CupelError, describe_system_error
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "validation_cases"
-PROGRAMS = Path(os.environ.get("CUPEL_PROGRAMS") or ROOT / "build" / "bin")  # the variable: programs built elsewhere
+PROGRAMS = Path(os.environ.get("CUPEL_BUILD") or ROOT / "build") / "bin"  # CUPEL_BUILD: a build folder elsewhere
 PYTHON = "/usr/bin/python3"
 LEVELS = ("coarse", "medium", "fine", "paper")
 SOLVERS = ("sph", "openfoam")

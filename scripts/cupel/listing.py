@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from reports.formatting import SOLVER_NAMES, limit, percent
+
 from .cases import case_names, find_case, resolve
 from .display import duration
 from .errors import CupelError
@@ -53,8 +55,8 @@ def tolerance_text(measure: dict) -> str:
     tolerance = measure.get("tolerance")
     if tolerance is None:
         return "recorded, not judged"
-    amount = f"{tolerance:.3g}" + (f" {measure.get('unit', '')}" if measure.get("metric") == "absolute" else " relative")
-    return f"within {amount.strip()} of {against or 'its reference'}"
+    amount = limit(tolerance, measure.get("unit") or "1", None) if measure.get("metric") == "absolute" else percent(tolerance)
+    return f"within {amount} of {SOLVER_NAMES.get(against, 'the ' + (against or 'given') + ' reference')}"
 
 
 def known_cost(root: Path, case: str, solver: str, level: str) -> dict | None:

@@ -145,6 +145,7 @@ class Runner:
             elif self.interrupted and status != 0:
                 self._close(job, "interrupted", "" if status in (130, -signal.SIGINT) else message)
             elif status in (0, 1) and (job.place.folder / "run.json").exists():
+                job.simulated = job.end_time if status == 0 else job.simulated
                 self._measure(job)
             else:
                 word = "refused" if status == 2 else "failed"

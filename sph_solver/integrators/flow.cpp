@@ -38,6 +38,12 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
+    if (with_recoil_)
+    {
+        const Material& metal = scene.materials.front();
+        vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),
+                            metal.vaporization_heat.value(), metal.molar_mass.value()};
+    }
     if (particles_.has("temperature"))
         temperature_ = &particles_.scalar("temperature");
     if (with_marangoni_)
@@ -85,7 +91,6 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
     if (with_marangoni_)
         find_temperature_gradient(neighbourhood);
-    const Material& liquid = scene_.materials.front();
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
@@ -106,9 +111,8 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             if (with_recoil_)
-                force_density += recoil_force(recoil_pressure(liquid, scene_.definition.surrounding->pressure,
-                                                              (*temperature_)[i]),
-                                              normal, delta);
+                force_density +=
+                    recoil_force(recoil_pressure(vapour_pressure_, (*temperature_)[i]), normal, delta);
             acceleration += (1.0 / particles_.density[i]) * force_density;
         }
         acceleration_.set(i, acceleration);

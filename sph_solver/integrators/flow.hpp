@@ -9,6 +9,7 @@
 #include "integrators/surface_tracker.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
+#include "models/vapour_pressure.hpp"
 
 namespace cupel
 {
@@ -24,6 +25,9 @@ public:
 
     /// Densities, pressures and accelerations at the new positions. time_step is that of the drift (0 at the start).
     virtual void evaluate(const Neighbourhood& neighbourhood, double time_step) = 0;
+
+    /// A particle that has just melted or solidified starts from rest.
+    virtual void reset(Index place) { acceleration_.set(place, {}); }
 
     const VectorField& acceleration() const { return acceleration_; }
     /// Null where the scene has no force on the surface.
@@ -53,6 +57,7 @@ private:
     void find_temperature_gradient(const Neighbourhood& neighbourhood);
 
     SurfaceTensionLaw tension_;
+    VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
     ScalarField* temperature_ = nullptr;
     VectorField* temperature_gradient_ = nullptr;

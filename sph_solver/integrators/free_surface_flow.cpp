@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "models/continuity.hpp"
+#include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
 
@@ -22,6 +23,11 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
+        if (particles_.has("enthalpy"))
+        {
+            enthalpy_ = &particles_.scalar("enthalpy");
+            energy_rate_ = &particles_.add_scalar({"shifting_energy_rate", "W"});
+        }
     }
     start_hydrostatic();
 }
@@ -61,6 +67,13 @@ void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step
     }
 }
 
+void FreeSurfaceFlow::reset(Index place)
+{
+    Flow::reset(place);
+    if (shift_)
+        shift_->set(place, {});
+}
+
 /// Mass, density and momentum that shifting by the last drift carried between particles.
 void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_step)
 {
@@ -69,8 +82,17 @@ void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_s
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   ShiftingExchange{mobility_, particles_.volume, particles_.density, particles_.velocity, *shift_,
                                    density_rate_, *mass_rate_, *shift_momentum_rate_});
+    if (enthalpy_)
+        for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                      EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_,
+                                       *energy_rate_});
     for (const Index i : neighbourhood.moving_particles())
-        particles_.mass[i] += time_step * (*mass_rate_)[i];
+    {
+        const double mass = particles_.mass[i] + time_step * (*mass_rate_)[i];
+        if (enthalpy_)
+            (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
+        particles_.mass[i] = mass;
+    }
 }
 
 /// The shifting velocity of the next drift.

@@ -14,6 +14,7 @@ public:
 
     void drift(const Neighbourhood& neighbourhood, double time_step) override;
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
+    void reset(Index place) override;
 
 private:
     void start_hydrostatic();
@@ -30,6 +31,8 @@ private:
     VectorField* shift_momentum_rate_ = nullptr;
     ScalarField* mass_rate_ = nullptr;
     ScalarField* strain_rate_ = nullptr;
+    ScalarField* enthalpy_ = nullptr;
+    ScalarField* energy_rate_ = nullptr;
 };
 
 }  // namespace cupel

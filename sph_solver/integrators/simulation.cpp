@@ -7,29 +7,60 @@
 namespace cupel
 {
 
-Simulation::Simulation(Scene scene)
-    : scene_(std::move(scene)), mobility_(scene_.particles->add_scalar({"mobility", "1"})),
-      parameters_(derive_flow_parameters(scene_)), limits_(derive_time_step_limits(scene_, parameters_)),
-      neighbourhood_(QuinticSpline(parameters_.smoothing_length, scene_.dimensions).support(),
-                     scene_.definition.numerics.skin * scene_.spacing, scene_.spacing, scene_.dimensions),
-      frozen_temperature_(!scene_.definition.requires_physics("heat") &&
-                          scene_.definition.requires_physics("marangoni"))
+namespace
 {
-    Particles& particles = *scene_.particles;
-    for (Index i = 0; i < particles.count(); ++i)
-        mobility_[i] = particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
-    if (frozen_temperature_)
-        particles.add_scalar({"temperature", "K", Output::yes});
-    flow_ = make_flow(scene_, parameters_, mobility_);
-    prepare();
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+FlowParameters parameters_of(const Scene& scene, bool has_flow)
+{
+    if (has_flow)
+        return derive_flow_parameters(scene);
+    FlowParameters parameters;
+    parameters.smoothing_length = scene.definition.numerics.smoothing_ratio * scene.spacing;
+    return parameters;
 }
 
-void Simulation::prepare()
+}  // namespace
+
+Simulation::Simulation(Scene scene)
+    : scene_(std::move(scene)), mobility_(scene_.particles->add_scalar({"mobility", "1"})),
+      has_flow_(scene_.definition.requires_physics("flow")), has_heat_(scene_.definition.requires_physics("heat")),
+      melts_(has_heat_ && scene_.definition.requires_physics("melting")),
+      frozen_temperature_(!has_heat_ && scene_.definition.requires_physics("marangoni")),
+      parameters_(parameters_of(scene_, has_flow_)),
+      limits_(has_flow_ ? derive_time_step_limits(scene_, parameters_) : TimeStepLimits{}),
+      neighbourhood_(QuinticSpline(parameters_.smoothing_length, scene_.dimensions).support(),
+                     scene_.definition.numerics.skin * scene_.spacing, scene_.spacing, scene_.dimensions)
+{
+    Particles& particles = *scene_.particles;
+    if (frozen_temperature_)
+    {
+        particles.add_scalar({"temperature", "K", Output::yes});
+        set_frozen_temperature();
+    }
+    if (has_heat_)
+        heat_ = std::make_unique<ThermalStep>(scene_);
+    if (melts_)
+        liquid_fraction_ = &particles.scalar("liquid_fraction");
+    for (Index i = 0; i < particles.count(); ++i)
+        mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
+    if (has_flow_)
+        flow_ = make_flow(scene_, parameters_, mobility_);
+}
+
+void Simulation::start()
 {
     neighbourhood_.rebuild(*scene_.particles, mobility_);
-    if (frozen_temperature_)
-        set_frozen_temperature();
-    flow_->evaluate(neighbourhood_, 0.0);
+    if (flow_)
+        flow_->evaluate(neighbourhood_, 0.0);
+}
+
+void Simulation::settle()
+{
+    neighbourhood_.rebuild(*scene_.particles, mobility_);
+    if (heat_)
+        heat_->forget_geometry();
 }
 
 void Simulation::set_frozen_temperature()
@@ -45,25 +76,40 @@ void Simulation::set_frozen_temperature()
     }
 }
 
-/// The least of all limits; the force criterion √(h/|a|) (Monaghan 1992) is the only one that changes with the flow.
+/// The least of all limits. Those of the flow hold while anything moves; the force criterion √(h/|a|) (Monaghan 1992)
+/// is the only one that changes with it. While nothing moves, heat sets the pace.
 double Simulation::choose_time_step(double longest)
 {
-    double greatest = 0.0;
-    const VectorField& acceleration = flow_->acceleration();
-    for (const Index i : neighbourhood_.moving_particles())
-        greatest = std::max(greatest, dot(acceleration[i], acceleration[i]));
-    if (greatest > 0.0)
-        limits_["force"] = 0.25 * scene_.definition.numerics.time_step_factor *
-                           std::sqrt(parameters_.smoothing_length / std::sqrt(greatest));
     double time_step = longest;
-    const char* binding = "output";
-    for (const auto& [name, limit] : limits_)
+    last_binding_ = "output";
+    const auto consider = [&](const std::string& name, double limit)
+    {
         if (limit < time_step)
         {
             time_step = limit;
-            binding = name.c_str();
+            last_binding_ = name;
         }
-    ++binding_[binding];
+    };
+    if (neighbourhood_.moving_particles().empty())
+    {
+        if (heat_)
+            consider("thermal", heat_->stable_time_step());
+    }
+    else
+    {
+        double greatest = 0.0;
+        const VectorField& acceleration = flow_->acceleration();
+        for (const Index i : neighbourhood_.moving_particles())
+            greatest = std::max(greatest, dot(acceleration[i], acceleration[i]));
+        limits_["force"] = greatest > 0.0 ? 0.25 * scene_.definition.numerics.time_step_factor *
+                                                std::sqrt(parameters_.smoothing_length / std::sqrt(greatest))
+                                          : no_limit;
+        for (const auto& [name, limit] : limits_)
+            consider(name, limit);
+        if (heat_)
+            consider("thermal", heat_->stable_time_step());
+    }
+    ++binding_[last_binding_];
     return time_step;
 }
 
@@ -77,13 +123,16 @@ void Simulation::kick(double time_step)
     for (std::size_t m = 0; m < count; ++m)
     {
         const Index i = moving[m];
-        particles.velocity.set(i, particles.velocity[i] + time_step * acceleration[i]);
+        Vector velocity = particles.velocity[i] + time_step * acceleration[i];
+        // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
+        if (melts_ && (*liquid_fraction_)[i] < 1.0)
+            velocity = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], time_step) * velocity;
+        particles.velocity.set(i, velocity);
     }
 }
 
-double Simulation::step(double longest)
+void Simulation::advance_flow(double time_step)
 {
-    const double time_step = choose_time_step(longest);
     kick(0.5 * time_step);
     flow_->drift(neighbourhood_, time_step);
     neighbourhood_.update(*scene_.particles, mobility_);
@@ -91,10 +140,87 @@ double Simulation::step(double longest)
         set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);
     kick(0.5 * time_step);
-    time_ += time_step;
-    ++steps_;
     updates_ += neighbourhood_.moving_particles().size();
+}
+
+void Simulation::advance_heat(double until)
+{
+    if (!(until > heat_time_))
+        return;
+    heat_->advance(neighbourhood_.list(), heat_time_, until - heat_time_);
+    heat_time_ = until;
+    updates_ += static_cast<std::uint64_t>(scene_.particles->count());
+    if (melts_ && has_flow_)
+        melt_and_solidify();
+}
+
+/// Metal with any liquid in it moves (its mush heavily damped), metal without stands where it is.
+void Simulation::melt_and_solidify()
+{
+    Particles& particles = *scene_.particles;
+    const double rest_density = scene_.materials.front().density;
+    bool changed = false;
+    for (Index i = 0; i < particles.count(); ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        if (particles.kind[k] == Kind::wall)
+            continue;
+        const bool liquid = (*liquid_fraction_)[i] > 0.0;
+        if (liquid == (mobility_[i] != 0.0))
+            continue;
+        changed = true;
+        mobility_[i] = liquid ? 1.0 : 0.0;
+        particles.kind[k] = liquid ? Kind::fluid : Kind::solid;
+        particles.velocity.set(i, {});
+        particles.density[i] = rest_density;
+        particles.pressure[i] = 0.0;
+        particles.volume[i] = particles.mass[i] / rest_density;
+        flow_->reset(i);
+    }
+    if (changed)
+        neighbourhood_.classify(particles, mobility_);
+}
+
+double Simulation::step(double longest)
+{
+    const double time_step = choose_time_step(longest);
+    if (flow_ && !neighbourhood_.moving_particles().empty())
+        advance_flow(time_step);
+    time_ += time_step;
+    // The thermal clock: as late as its stability allows, but never later than an output.
+    if (heat_ && (time_ - heat_time_ + time_step > heat_->stable_time_step() || last_binding_ == "output"))
+        advance_heat(time_);
+    ++steps_;
+    last_time_step_ = time_step;
     return time_step;
+}
+
+void Simulation::save(std::map<std::string, double>& numbers) const
+{
+    numbers["clock.time"] = time_;
+    numbers["clock.heat_time"] = heat_time_;
+    numbers["clock.steps"] = static_cast<double>(steps_);
+    numbers["clock.updates"] = static_cast<double>(updates_);
+    numbers["clock.last_time_step"] = last_time_step_;
+    for (const auto& [name, count] : binding_)
+        numbers["binding." + name] = static_cast<double>(count);
+    if (heat_)
+        heat_->save(numbers);
+}
+
+void Simulation::load(const std::map<std::string, double>& numbers)
+{
+    time_ = numbers.at("clock.time");
+    heat_time_ = numbers.at("clock.heat_time");
+    steps_ = static_cast<std::uint64_t>(numbers.at("clock.steps"));
+    updates_ = static_cast<std::uint64_t>(numbers.at("clock.updates"));
+    last_time_step_ = numbers.at("clock.last_time_step");
+    const std::string prefix = "binding.";
+    for (const auto& [name, value] : numbers)
+        if (name.starts_with(prefix))
+            binding_[name.substr(prefix.size())] = static_cast<std::uint64_t>(value);
+    if (heat_)
+        heat_->load(numbers);
 }
 
 }  // namespace cupel

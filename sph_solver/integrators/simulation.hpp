@@ -7,47 +7,76 @@
 
 #include "integrators/flow.hpp"
 #include "integrators/neighbourhood.hpp"
+#include "integrators/thermal_step.hpp"
+#include "models/carman_kozeny.hpp"
 #include "scene/place_particles.hpp"
 
 namespace cupel
 {
 
 /// A scene in time. Only what the case's physics names is constructed; the rest costs nothing.
+///
+/// Flow goes by kick, drift, kick (velocity Verlet) on its own time step; heat follows on a longer one, and from what
+/// melts and solidifies in it the flow learns which particles move.
 class Simulation
 {
 public:
     explicit Simulation(Scene scene);
 
-    /// One step, no longer than `longest` (s); returns the time that it took.
+    /// Lists and forces of the initial state. Not after a checkpoint: that one has the forces.
+    void start();
+
+    /// One step, no longer than `longest` (s); returns the time that it took. Where `longest` binds, heat is brought up
+    /// to the same time as the flow.
     double step(double longest);
 
-    /// Brings forces and lists up to date with the particles' state: at the start, and after a checkpoint was loaded.
-    void prepare();
+    /// Puts the particles into the order that their positions alone give and drops what is only remembered, so that a
+    /// run which goes on from here and one that starts from a checkpoint of this state are the same bit for bit.
+    /// To be called at fixed steps, not by the clock on the wall.
+    void settle();
+
+    /// Named numbers beside the particles' fields, for a checkpoint; after load() call settle().
+    void save(std::map<std::string, double>& numbers) const;
+    void load(const std::map<std::string, double>& numbers);
 
     const Scene& scene() const { return scene_; }
     Particles& particles() { return *scene_.particles; }
     const Particles& particles() const { return *scene_.particles; }
     const Neighbourhood& neighbourhood() const { return neighbourhood_; }
+    /// Null where the case does not name 'flow' or 'heat'.
     const Flow* flow() const { return flow_.get(); }
+    const ThermalStep* heat() const { return heat_.get(); }
+    const FlowParameters& parameters() const { return parameters_; }
+    const TimeStepLimits& limits() const { return limits_; }
     double time() const { return time_; }
     std::uint64_t steps() const { return steps_; }
-    /// Particle updates by the flow so far, and how often each time-step limit was the binding one.
+    double last_time_step() const { return last_time_step_; }
+    const std::string& last_binding() const { return last_binding_; }
+    /// Particle updates so far, by flow and heat together.
     std::uint64_t updates() const { return updates_; }
+    /// Criterion → number of steps that it bound.
     const std::map<std::string, std::uint64_t>& binding_limits() const { return binding_; }
 
 private:
     void set_frozen_temperature();
     double choose_time_step(double longest);
+    void advance_flow(double time_step);
+    void advance_heat(double until);
+    void melt_and_solidify();
     void kick(double time_step);
 
     Scene scene_;
     ScalarField& mobility_;
+    bool has_flow_, has_heat_, melts_, frozen_temperature_;
     FlowParameters parameters_;
     TimeStepLimits limits_;
     Neighbourhood neighbourhood_;
-    bool frozen_temperature_;
+    std::unique_ptr<ThermalStep> heat_;
     std::unique_ptr<Flow> flow_;
-    double time_ = 0.0;
+    CarmanKozeny mushy_drag_;
+    const ScalarField* liquid_fraction_ = nullptr;
+    double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
+    std::string last_binding_;
     std::uint64_t steps_ = 0, updates_ = 0;
     std::map<std::string, std::uint64_t> binding_;
 };

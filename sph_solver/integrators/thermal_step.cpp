@@ -44,14 +44,14 @@ const Surrounding& needed_surrounding(const Case& definition)
 }  // namespace
 
 ThermalStep::ThermalStep(Scene& scene)
-    : particles_(*scene.particles), smoothing_length_(smoothing_length_of(scene)),
+    : particles_(*scene.particles), spacing_(scene.spacing), smoothing_length_(smoothing_length_of(scene)),
       kernel_(smoothing_length_, scene.dimensions), materials_(thermal_materials(scene)),
       walls_(scene.definition.domain, kernel_, scene.spacing, scene.dimensions),
       temperature_(particles_.add_scalar({"temperature", "K", Output::yes})),
       enthalpy_(particles_.add_scalar({"enthalpy", "J/kg"})),
       peak_temperature_(particles_.add_scalar({"peak_temperature", "K", Output::yes})),
       conductivity_(particles_.add_scalar({"thermal_conductivity", "W/(m K)"})),
-      completeness_(particles_.add_scalar({"kernel_completeness", "1"}, 1.0)),
+      correction_(particles_.add_scalar({"conduction_correction", "1"}, 1.0)),
       power_(particles_.add_scalar({"heating_power", "W"}))
 {
     const Case& definition = scene.definition;
@@ -68,10 +68,7 @@ ThermalStep::ThermalStep(Scene& scene)
     if (laser_ || losses_.any())
         metal_ = &particles_.add_scalar({"metal", "1"});
     if (losses_.any())
-    {
-        surface_strength_ = &particles_.add_scalar({"surface_strength", "1"});
         exposed_area_ = &particles_.add_scalar({"exposed_area", "m2"});
-    }
     if (const Numerics& numerics = definition.numerics; numerics.artificial_heat > 0.0)
     {
         const double beta = numerics.artificial_viscosity_beta;
@@ -127,7 +124,6 @@ void ThermalStep::set_initial_state(const Scene& scene)
     for (const auto& boundary : definition.domain.boundaries)
         if (boundary && boundary->temperature)
             lowest_possible_ = std::min(lowest_possible_, *boundary->temperature);
-    // Evaporation cools without end, but by less than a kelvin over any run at the temperatures of surroundings.
     if (losses_.radiation)
         lowest_possible_ = std::min(lowest_possible_, losses_.radiation->surrounding_temperature);
     books_.stored_at_start = stored_energy();
@@ -220,36 +216,20 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
 void ThermalStep::update_geometry(const NeighbourList& list)
 {
     find_stale_clusters(list);
-    const KernelCompleteness completeness{particles_.volume, conductivity_, particles_.position, walls_, completeness_};
+    const KernelCompleteness completeness{particles_.volume, conductivity_, particles_.position, walls_, correction_};
     if (!losses_.any())
     {
         for_each_pair(list, particles_, kernel_, stale_clusters_, completeness);
         return;
     }
     for_each_pair(list, particles_, kernel_, stale_clusters_, completeness,
-                  MetalGradient{particles_.volume, *metal_, particles_.position, walls_, smoothing_length_,
-                                *surface_strength_});
-    // Only clusters of the surface have anything to ask their neighbours.
-    std::vector<Index> at_surface;
-    for (const Index c : stale_clusters_)
-    {
-        const Cluster cluster = list.cluster(c);
-        bool any = false;
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-        {
-            (*exposed_area_)[i] = 0.0;
-            any = any || (*surface_strength_)[i] > ExposedArea::negligible;
-        }
-        if (any)
-            at_surface.push_back(c);
-    }
-    for_each_pair(list, particles_, kernel_, at_surface,
-                  ExposedArea{particles_.volume, *surface_strength_, smoothing_length_, *exposed_area_});
+                  ExposedSurface{particles_.volume, *metal_, particles_.position, walls_, smoothing_length_,
+                                 outermost_layer_share(walls_.layers(), spacing_), *exposed_area_});
 }
 
 void ThermalStep::conduct(const NeighbourList& list)
 {
-    const HeatConduction conduction{particles_.volume, temperature_, conductivity_, completeness_, power_};
+    const HeatConduction conduction{particles_.volume, temperature_, conductivity_, correction_, power_};
     if (!artificial_heat_)
     {
         for_each_pair(list, particles_, kernel_, all_clusters_, conduction);

@@ -61,6 +61,9 @@ public:
     void advance(const NeighbourList& list, double time, double time_step);
 
     const HeatBooks& books() const { return books_; }
+    /// Drops the sums that particles at rest keep from earlier steps, so that the next step makes all of them anew.
+    void forget_geometry() { geometry_known_ = false; }
+
     /// Σ m h of all particles now, J.
     double stored_energy() const;
     /// Energy as a ledger, end = now: in = laser + walls, out = losses + walls. Where nothing comes or goes its reference
@@ -104,7 +107,7 @@ private:
     bool is_wall(Index i) const { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }
 
     Particles& particles_;
-    double smoothing_length_;
+    double spacing_, smoothing_length_;
     QuinticSpline kernel_;
     std::vector<ThermalMaterial> materials_;
     ThermalWalls walls_;
@@ -116,11 +119,10 @@ private:
     ScalarField& peak_temperature_;
     ScalarField* liquid_fraction_ = nullptr;    ///< only where the case melts
     ScalarField& conductivity_;                 ///< 0 for walls, which take no part
-    ScalarField& completeness_;
+    ScalarField& correction_;
     ScalarField& power_;
     ScalarField* metal_ = nullptr;              ///< only with a laser or losses
-    ScalarField* surface_strength_ = nullptr;   ///< only with losses
-    ScalarField* exposed_area_ = nullptr;
+    ScalarField* exposed_area_ = nullptr;       ///< only with losses
     std::optional<ArtificialHeatFields> artificial_heat_;
     std::vector<Index> all_clusters_, stale_clusters_;
     bool geometry_known_ = false;

@@ -10,7 +10,10 @@ namespace cupel
 namespace
 {
 
-bool finite(const Vector& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+bool finite(const Vector& a)
+{
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 bool within(const Vector& a, const Vector& lower, const Vector& upper)
 {
@@ -18,7 +21,10 @@ bool within(const Vector& a, const Vector& lower, const Vector& upper)
 }
 
 /// 0, or not a number where `a` is none or infinite.
-double zero_times(double a) { return a - a; }
+double zero_times(double a)
+{
+    return a - a;
+}
 
 /// The component that is no number, or the norm where all are.
 double telling_value(const Vector& a)
@@ -28,7 +34,7 @@ double telling_value(const Vector& a)
     return norm(a);
 }
 
-}  // namespace
+} // namespace
 
 std::string Diagnosis::line() const
 {
@@ -39,7 +45,8 @@ std::string Diagnosis::line() const
                        remedy);
 }
 
-Guards::Guards(const Particles& particles, GuardLimits limits) : particles_(&particles), limits_(std::move(limits)), bounds_(limits_.density)
+Guards::Guards(const Particles& particles, GuardLimits limits)
+    : particles_(&particles), limits_(std::move(limits)), bounds_(limits_.density)
 {
     bounds_.push_back({-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
     if (particles.has("temperature")) temperature_ = &particles.scalar("temperature");
@@ -90,8 +97,8 @@ Diagnosis Guards::diagnose(Index i, double time) const
     diagnosis.time = time;
     diagnosis.identity = particles_->identity[static_cast<std::size_t>(i)];
     diagnosis.place = position;
-    const auto say = [&](std::string model, std::string problem, std::string quantity, double value, std::string remedy)
-    {
+    const auto say = [&](std::string model, std::string problem, std::string quantity, double value,
+                         std::string remedy) {
         diagnosis.model = std::move(model);
         diagnosis.problem = std::move(problem);
         diagnosis.quantity = std::move(quantity);
@@ -100,20 +107,18 @@ Diagnosis Guards::diagnose(Index i, double time) const
         return diagnosis;
     };
     const std::string smaller_step = "reduce numerics.time_step_factor, or take a finer level";
-    if (!std::isfinite(density))
-        return say("continuity", "not a number", "density [kg/m3]", density, smaller_step);
+    if (!std::isfinite(density)) return say("continuity", "not a number", "density [kg/m3]", density, smaller_step);
     if (!finite(velocity))
         return say("momentum", "not a number", "velocity [m/s]", telling_value(velocity), smaller_step);
-    if (!finite(position))
-        return say("motion", "not a number", "position [m]", telling_value(position), smaller_step);
+    if (!finite(position)) return say("motion", "not a number", "position [m]", telling_value(position), smaller_step);
     if (!std::isfinite(temperature))
-        return say("heat", "not a number", "temperature [K]", temperature,
-                   "reduce numerics.thermal_time_step_factor");
+        return say("heat", "not a number", "temperature [K]", temperature, "reduce numerics.thermal_time_step_factor");
     if (!within(position, limits_.lower, limits_.upper))
         return say("walls", "a particle has left the domain", "speed [m/s]", norm(velocity),
                    "enlarge the domain where it is open, else reduce numerics.time_step_factor");
     if (!(dot(velocity, velocity) <= limits_.sound_speed * limits_.sound_speed))
-        return say("momentum", fmt::format("faster than the artificial speed of sound, {:.6g} m/s", limits_.sound_speed),
+        return say("momentum",
+                   fmt::format("faster than the artificial speed of sound, {:.6g} m/s", limits_.sound_speed),
                    "speed [m/s]", norm(velocity), "raise numerics.reference_speed or numerics.sound_speed");
     if (!(temperature >= limits_.lowest_temperature && temperature <= limits_.highest_temperature))
         return say("heat",
@@ -138,4 +143,4 @@ std::optional<Diagnosis> Guards::check_time_step(double time_step, std::string_v
     return diagnosis;
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -15,14 +15,14 @@ namespace cupel
 /// What a guard found, where, and what to do about it.
 struct Diagnosis
 {
-    std::string model;    ///< whose result it is, e.g. "equation of state"
-    std::string problem;  ///< e.g. "density error beyond its bound"
+    std::string model;   ///< whose result it is, e.g. "equation of state"
+    std::string problem; ///< e.g. "density error beyond its bound"
     std::string remedy;
-    std::string quantity;  ///< what `value` is, with unit
+    std::string quantity; ///< what `value` is, with unit
     double value = 0;
-    double time = 0;      ///< simulated [s]
-    Index identity = -1;  ///< of the particle; −1 where the problem has no place
-    Vector place{};       ///< [m]
+    double time = 0;     ///< simulated [s]
+    Index identity = -1; ///< of the particle; −1 where the problem has no place
+    Vector place{};      ///< [m]
 
     /// All of it in one line.
     std::string line() const;
@@ -38,15 +38,15 @@ struct DensityBounds
 /// What a scene allows. Bounds are inclusive; what is infinite is not checked beyond being a number.
 struct GuardLimits
 {
-    std::vector<DensityBounds> density;  ///< a material each, in the order of Particles::material; may be empty
-    double sound_speed = std::numeric_limits<double>::infinity();           ///< artificial [m/s]
-    double lowest_temperature = 0;                                          ///< [K]
-    double highest_temperature = std::numeric_limits<double>::infinity();   ///< [K]
+    std::vector<DensityBounds> density; ///< a material each, in the order of Particles::material; may be empty
+    double sound_speed = std::numeric_limits<double>::infinity();         ///< artificial [m/s]
+    double lowest_temperature = 0;                                        ///< [K]
+    double highest_temperature = std::numeric_limits<double>::infinity(); ///< [K]
     Vector lower{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                 -std::numeric_limits<double>::infinity()};  ///< of the domain, with the margin that the walls have [m]
+                 -std::numeric_limits<double>::infinity()}; ///< of the domain, with the margin that the walls have [m]
     Vector upper{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                  std::numeric_limits<double>::infinity()};
-    double smallest_time_step = 0;  ///< below it a run does not get on [s]
+    double smallest_time_step = 0; ///< below it a run does not get on [s]
 };
 
 /// Checks a scene's particles. The field "temperature" is checked where it is registered. Of wall particles, whose
@@ -72,7 +72,7 @@ private:
     const Particles* particles_;
     const ScalarField* temperature_ = nullptr;
     GuardLimits limits_;
-    std::vector<DensityBounds> bounds_;  ///< a material each, and last those of materials without any
+    std::vector<DensityBounds> bounds_; ///< a material each, and last those of materials without any
 };
 
-}  // namespace cupel
+} // namespace cupel

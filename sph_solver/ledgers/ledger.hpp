@@ -14,9 +14,9 @@ struct Ledger
 {
     double start = 0;
     double end = 0;
-    double in = 0;         ///< entered since the start, ≥ 0
-    double out = 0;        ///< left since the start; negative where a loss turned into a gain
-    double reference = 0;  ///< smallest amount against which an error is judged, e.g. the mass at the start
+    double in = 0;        ///< entered since the start, ≥ 0
+    double out = 0;       ///< left since the start; negative where a loss turned into a gain
+    double reference = 0; ///< smallest amount against which an error is judged, e.g. the mass at the start
 
     /// What the books do not explain.
     double error() const { return (end - start) - (in - out); }
@@ -51,4 +51,4 @@ inline Ledger load_ledger(const std::string& name, const std::map<std::string, d
             numbers.at(prefix + "out"), numbers.at(prefix + "reference")};
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -8,18 +8,24 @@ namespace cupel
 
 /// Where metal faces the surrounding: the gradient of its share of space, summed over all metal, solid or liquid,
 ///
-///   G_i = Σ_j V_j ∇W_ij      [1/m];      δ = 2|G|,   exposed area = V δ [m²],   outward normal n̂ = −G/|G|
+///   G_i = Σ_j V_j ∇W_ij      [1/m];      δ = 2|G|/λ where |G| h > 0.2, else 0;      exposed area = V δ      [m²]
 ///
-/// Walls count as full of metal: it is not exposed where it touches one. Across a flat surface ΣVδ is its area, 0.9 of
-/// it in the outermost layer of a lattice. Kept is the strength |G| h [1].
-struct MetalGradient
+/// (outward normal −G/|G|). Walls count as full of metal: it is not exposed where it touches one. The threshold takes
+/// the outermost layer alone and leaves the noise of G inside out; λ is the part of the full δ that this layer has on a
+/// lattice (outermost_layer_share), so that across a flat surface ΣVδ is its area. Measured with a jitter of 0 and 20 %:
+/// plate 1.00, ball of radius 8 Δx 0.92, 4 Δx 0.87, 2 Δx 0.66. A particle alone in space has G = 0 and exposes
+/// nothing; no particle exposes more than the kernel's slope allows, about 1.5 Δx².
+struct ExposedSurface
 {
+    static constexpr double threshold = 0.2;
+
     const ScalarField& volume;
     const ScalarField& metal;       ///< 1 for the primary material, 0 for a surrounding with particles and for walls
     const VectorField& position;
     const ThermalWalls& walls;
     double smoothing_length;        ///< h, m
-    ScalarField& strength;          ///< |G| h; 0 where there is no metal
+    double outermost_layer_share;   ///< λ, 1
+    ScalarField& area;              ///< exposed area, m²
 
     struct Near
     {
@@ -42,48 +48,16 @@ struct MetalGradient
         {
             const Index i = cluster.first + lane;
             const Vector particles{sum.gradient.x[lane], sum.gradient.y[lane], sum.gradient.z[lane]};
-            strength[i] = metal[i] * norm(particles + walls.filling(position[i]).gradient) * smoothing_length;
+            const double slope = metal[i] * norm(particles + walls.filling(position[i]).gradient);
+            area[i] = slope * smoothing_length > threshold ? volume[i] * 2.0 * slope / outermost_layer_share : 0.0;
         }
     }
 };
 
-/// Which particles are exposed: those with |G| h > 0.25 (the surface itself), and their neighbours, which carry the rest
-/// of δ. The noise of G elsewhere inside is no surface, and a single grain particle, which has G = 0, neither radiates
-/// nor evaporates; a few of them expose at most 2|G|V each, which is bounded by the kernel.
-struct ExposedArea
+/// λ: twice |G| Δx in the outermost layer of a lattice that fills a half space, i.e. of layers at Δx, 2 Δx … below.
+inline double outermost_layer_share(const WallLayers& layers, double spacing)
 {
-    static constexpr double surface_threshold = 0.25;
-    static constexpr double negligible = 0.02;
-
-    const ScalarField& volume;
-    const ScalarField& strength;
-    double smoothing_length;    ///< h, m
-    ScalarField& area;          ///< V δ, m²; 0 inside
-
-    struct Near
-    {
-    };
-    struct Sum
-    {
-        Lanes surface{};
-    };
-
-    bool idle(const Cluster&) const { return false; }
-    Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
-    {
-        if (strength[j] > surface_threshold)
-            sum.surface += pair.kernel;
-    }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
-    {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
-            const Index i = cluster.first + lane;
-            const bool exposed = strength[i] > negligible && sum.surface[lane] > 0.0;
-            area[i] = exposed ? 2.0 * volume[i] * strength[i] / smoothing_length : 0.0;
-        }
-    }
-};
+    return 2.0 * layers.slope(0.5 * spacing) * spacing;
+}
 
 }  // namespace cupel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -42,45 +43,54 @@ struct SurfaceLosses
 
 /// One implicit step of a particle's surface losses, the only stiff part of its heat balance:
 ///
-///   h = h* − (A Δt/m) q(T(h))      [J/kg]
+///   h = h* − x,   x = (A Δt/m) q(T(h* − x))      [J/kg]
 ///
-/// h* the enthalpy after all else, A its exposed area, m its mass. Since h(T) and q(T) rise with T, there is one root,
-/// between h* and h* − (A Δt/m) q(T(h*)): it cannot overshoot, however long the step. Found by Newton steps on the
-/// secant within that bracket (regula falsi, Illinois). Returns what left, J/kg, by mechanism; its total is exactly
-/// what the enthalpy loses.
+/// h* the enthalpy after all else, A its exposed area, m its mass. Since h(T) and q(T) rise with T there is one root, and
+/// it lies between 0 and the explicit loss, short of T = 0 where that is positive and of the surrounding's temperature
+/// where it is negative: it cannot overshoot, however long the step. Found by bracketing with inverse quadratic steps
+/// (Chandrupatla 1997). Returns what left, J/kg, by mechanism.
 ///
 ///   per_flux    A Δt/m, m²·s/kg
 inline LossShares implicit_losses(const SurfaceLosses& losses, const ThermalMaterial& material, double enthalpy,
                                   double per_flux)
 {
-    const auto flux_at = [&](double h) { return losses.heat_flux(material.temperature(h)); };
-    LossShares flux = flux_at(enthalpy);
-    double lost = per_flux * flux.total();
+    LossShares flux = losses.heat_flux(material.temperature(enthalpy));
+    const double explicit_loss = per_flux * flux.total();
+    double lost = explicit_loss;
     // A change of less than 10⁻⁴ K cannot overshoot.
-    if (std::abs(lost) > 1e-4 * material.specific_heat_solid)
+    if (std::abs(explicit_loss) > 1e-4 * material.specific_heat_solid)
     {
-        // residual(x) = per_flux q(T(h* − x)) − x falls with x: it is `lost` at 0 and has the other sign at `lost`.
-        double a = 0.0, residual_a = lost;
-        double b = lost, residual_b = per_flux * flux_at(enthalpy - b).total() - b;
-        for (int iteration = 0; iteration < 100 && residual_b != 0.0 && std::abs(b - a) > 1e-13 * std::abs(enthalpy);
-             ++iteration)
+        const auto residual = [&](double x)
         {
-            const double x = b - residual_b * (b - a) / (residual_b - residual_a);
-            flux = flux_at(enthalpy - x);
-            const double residual = per_flux * flux.total() - x;
-            if ((residual > 0.0) != (residual_b > 0.0))
+            flux = losses.heat_flux(material.temperature(enthalpy - x));
+            return per_flux * flux.total() - x;
+        };
+        const double limit =
+            explicit_loss > 0.0
+                ? std::min(explicit_loss, enthalpy)
+                : std::max(explicit_loss, enthalpy - material.enthalpy(losses.radiation->surrounding_temperature));
+        const double tolerance = 1e-13 * std::abs(enthalpy);
+        double x1 = limit, f1 = residual(limit), x2 = 0.0, f2 = explicit_loss, share = 0.5;
+        for (int iteration = 0; iteration < 200 && f1 != 0.0 && std::abs(x2 - x1) > 2.0 * tolerance; ++iteration)
+        {
+            const double x = x1 + share * (x2 - x1), f = residual(x);
+            double x3 = x1, f3 = f1;
+            if ((f > 0.0) != (f1 > 0.0))
             {
-                a = b;
-                residual_a = residual_b;
+                x3 = x2, f3 = f2;
+                x2 = x1, f2 = f1;
             }
-            else
-                residual_a *= 0.5;
-            b = x;
-            residual_b = residual;
-            if (std::abs(residual) <= 1e-12 * std::abs(x))
-                break;
+            x1 = x, f1 = f;
+            const double xi = (x1 - x2) / (x3 - x2), phi = (f1 - f2) / (f3 - f2);
+            share = 0.5;
+            if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+                share = f1 / (f2 - f1) * f3 / (f2 - f3) +
+                        (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2);
+            const double least = std::min(0.5, tolerance / std::abs(x2 - x1));
+            share = std::clamp(share, least, 1.0 - least);
         }
-        lost = b;
+        lost = x1;
+        flux = losses.heat_flux(material.temperature(enthalpy - lost));
     }
     const double total = flux.total();
     if (total == 0.0) return {};

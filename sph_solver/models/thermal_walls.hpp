@@ -32,6 +32,8 @@ public:
         }
     }
 
+    const WallLayers& layers() const { return layers_; }
+
     bool any_temperature() const
     {
         return std::any_of(planes_.begin(), planes_.end(), [](const Plane& p) { return p.temperature.has_value(); });

@@ -14,13 +14,13 @@ namespace fs = std::filesystem;
 
 OutputError system_output_error(int error_number, const fs::path& path, std::string_view action)
 {
-    const auto line = [&](std::string_view reason, std::string_view remedy)
-    { return OutputError(fmt::format("{}: cannot be {}: {}; {}", path.string(), action, reason, remedy)); };
-    switch (error_number)
-    {
+    const auto line = [&](std::string_view reason, std::string_view remedy) {
+        return OutputError(fmt::format("{}: cannot be {}: {}; {}", path.string(), action, reason, remedy));
+    };
+    switch (error_number) {
     case ENOSPC:
     case EDQUOT:
-        return line("the disk is full", "free some space or choose another --output folder, then go on with --resume");
+        return line("the disk is full", "free some space, then go on with --resume");
     case EFBIG:
         return line("the file would be larger than this process may write", "raise the limit (ulimit -f)");
     case EROFS:
@@ -42,16 +42,17 @@ OutputError system_output_error(int error_number, const fs::path& path, std::str
 FileDescriptor::FileDescriptor(const fs::path& path, int flags, std::string_view action, fs::path shown_path)
     : shown_path_(std::move(shown_path)), number_(::open(path.c_str(), flags | O_CLOEXEC, 0666))
 {
-    if (number_ < 0)
-        throw system_output_error(errno, shown_path_, action);
+    if (number_ < 0) throw system_output_error(errno, shown_path_, action);
 }
 
-FileDescriptor::~FileDescriptor() { ::close(number_); }
+FileDescriptor::~FileDescriptor()
+{
+    ::close(number_);
+}
 
 void FileDescriptor::write(std::string_view content)
 {
-    while (!content.empty())
-    {
+    while (!content.empty()) {
         const auto written = ::write(number_, content.data(), content.size());
         if (written > 0)
             content.remove_prefix(static_cast<std::size_t>(written));
@@ -62,22 +63,23 @@ void FileDescriptor::write(std::string_view content)
 
 void FileDescriptor::flush()
 {
-    while (::fsync(number_) != 0)
-    {
+    while (::fsync(number_) != 0) {
         if (errno == EINTR) continue;
-        if (errno == EINVAL) return;  // a pipe or a special file, which has no disk to flush to
+        if (errno == EINVAL) return; // a pipe or a special file, which has no disk to flush to
         throw system_output_error(errno, shown_path_, "flushed to the disk");
     }
 }
 
-fs::path beside(const fs::path& path) { return path.parent_path() / ("." + path.filename().string() + ".beside"); }
+fs::path beside(const fs::path& path)
+{
+    return path.parent_path() / fmt::format(".{}.beside", path.filename().string());
+}
 
 void write_whole(const fs::path& path, std::string_view content)
 {
     const fs::path prepared = beside(path);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    try
-    {
+    try {
         {
             FileDescriptor file(prepared, O_WRONLY | O_CREAT | O_TRUNC, "written", path);
             file.write(content);
@@ -85,24 +87,23 @@ void write_whole(const fs::path& path, std::string_view content)
         }
         if (::rename(prepared.c_str(), path.c_str()) != 0) throw system_output_error(errno, path, "replaced");
     }
-    catch (const OutputError&)
-    {
+    catch (const OutputError&) {
         ::unlink(prepared.c_str());
         throw;
     }
-    FileDescriptor(folder, O_RDONLY | O_DIRECTORY, "flushed to the disk").flush();  // the new name itself
+    FileDescriptor(folder, O_RDONLY | O_DIRECTORY, "flushed to the disk").flush(); // the new name itself
 }
 
 std::string read_whole(const fs::path& path)
 {
     FileDescriptor file(path, O_RDONLY, "read");
-    struct stat status{};
+    struct stat status
+    {};
     if (::fstat(file.number(), &status) != 0) throw system_output_error(errno, path, "read");
     std::string content;
     content.reserve(static_cast<std::size_t>(status.st_size));
     std::string block(1 << 20, '\0');
-    while (true)
-    {
+    while (true) {
         const auto count = ::read(file.number(), block.data(), block.size());
         if (count == 0) return content;
         if (count > 0)
@@ -127,4 +128,4 @@ void remove_file(const fs::path& path)
     if (error) throw system_output_error(error.value(), path, "removed");
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -43,8 +43,7 @@ public:
     /// Opens with the flags of open(2); throws OutputError with `action` as in system_output_error.
     FileDescriptor(const std::filesystem::path& path, int flags, std::string_view action)
         : FileDescriptor(path, flags, action, path)
-    {
-    }
+    {}
     /// The same, with another name in errors: that of the file which this one prepares.
     FileDescriptor(const std::filesystem::path& path, int flags, std::string_view action,
                    std::filesystem::path shown_path);
@@ -63,4 +62,4 @@ private:
     int number_;
 };
 
-}  // namespace cupel
+} // namespace cupel

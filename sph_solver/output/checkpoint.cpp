@@ -56,8 +56,7 @@ std::map<std::string, std::string> header_entries(const std::string& header)
     std::istringstream lines(header.substr(0, header.find('\0')));
     std::string line;
     std::getline(lines, line);
-    while (std::getline(lines, line))
-    {
+    while (std::getline(lines, line)) {
         const auto blank = line.find(' ');
         if (blank != std::string::npos) entries[line.substr(0, blank)] = line.substr(blank + 1);
     }
@@ -73,18 +72,15 @@ std::map<std::string, std::string> verified_header(const fs::path& file)
     std::size_t size = 0;
     std::string header;
     std::size_t digits = std::string::npos;
-    while (true)
-    {
+    while (true) {
         std::size_t filled = 0;
-        while (filled < block.size())
-        {
+        while (filled < block.size()) {
             const auto count = ::read(input.number(), block.data() + filled, block.size() - filled);
             if (count == 0) break;
             if (count < 0 && errno != EINTR) throw system_output_error(errno, file, "read");
             if (count > 0) filled += static_cast<std::size_t>(count);
         }
-        if (size == 0)
-        {
+        if (size == 0) {
             header = block.substr(0, std::min(filled, header_size));
             digits = checksum_place(header);
             if (filled == 0) throw refused(file, "is empty");
@@ -99,8 +95,8 @@ std::map<std::string, std::string> verified_header(const fs::path& file)
     const auto entries = header_entries(header);
     const auto entry = [&](const char* name) { return entries.contains(name) ? entries.at(name) : std::string(); };
     if (entry("format") != std::to_string(format_version))
-        throw refused(file, fmt::format("has format '{}', but this program reads format {}", entry("format"),
-                                        format_version));
+        throw refused(
+            file, fmt::format("has format '{}', but this program reads format {}", entry("format"), format_version));
     if (entry("size") != std::to_string(size))
         throw refused(file, fmt::format("is truncated or damaged: it has {} of '{}' bytes", size, entry("size")));
     if (entry("checksum") != fmt::format("{:08x}", computed))
@@ -128,8 +124,7 @@ void compare_fields(const fs::path& file, const std::vector<std::string>& kept, 
             throw refused(file, "has a field '" + name + "', which this run does not know");
 }
 
-template <class T, class Values>
-std::span<T> first(Values& values, std::size_t count)
+template <class T, class Values> std::span<T> first(Values& values, std::size_t count)
 {
     return {reinterpret_cast<T*>(values.data()), count};
 }
@@ -154,7 +149,7 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder)
     return found;
 }
 
-}  // namespace
+} // namespace
 
 void save_checkpoint(const fs::path& file, const Provenance& provenance, const Particles& particles,
                      const RunState& state)
@@ -164,14 +159,12 @@ void save_checkpoint(const fs::path& file, const Provenance& provenance, const P
     for (const char* group : {"/particles", "/particles/scalars", "/particles/vectors", "/numbers", "/arrays"})
         writer.add_group(group);
 
-    for (const auto& field : particles.scalars())
-    {
+    for (const auto& field : particles.scalars()) {
         const std::string path = "/particles/scalars/" + field->info.name;
         writer.add_array<double>(path, first<const double>(field->values, count));
         writer.add_text(path, "unit", field->info.unit);
     }
-    for (const auto& field : particles.vectors())
-    {
+    for (const auto& field : particles.vectors()) {
         const std::string path = "/particles/vectors/" + field->info.name;
         const std::span<const double> rows[]{first<const double>(field->x, count), first<const double>(field->y, count),
                                              first<const double>(field->z, count)};
@@ -223,8 +216,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& file, const Provenance& provena
 
     for (const auto& field : particles.scalars())
         reader.read_array<double>("/particles/scalars/" + field->info.name, first<double>(field->values, count));
-    for (const auto& field : particles.vectors())
-    {
+    for (const auto& field : particles.vectors()) {
         const std::span<double> rows[]{first<double>(field->x, count), first<double>(field->y, count),
                                        first<double>(field->z, count)};
         reader.read_array<double>("/particles/vectors/" + field->info.name, rows);
@@ -241,8 +233,7 @@ LoadedCheckpoint load_checkpoint(const fs::path& file, const Provenance& provena
     loaded.state.step = static_cast<std::uint64_t>(reader.number("/", "step"));
     for (const auto& name : reader.attribute_names("/numbers"))
         loaded.state.numbers[name] = reader.number("/numbers", name);
-    for (const auto& name : reader.names("/arrays"))
-    {
+    for (const auto& name : reader.names("/arrays")) {
         auto& values = loaded.state.arrays[name];
         values.resize(reader.length("/arrays/" + name));
         reader.read_array<double>("/arrays/" + name, std::span<double>(values));
@@ -259,10 +250,12 @@ std::optional<fs::path> newest_checkpoint(const fs::path& folder)
 
 Checkpoints::Checkpoints(fs::path folder, Provenance provenance, std::chrono::duration<double> interval)
     : folder_(std::move(folder)), provenance_(std::move(provenance)), interval_(interval)
-{
-}
+{}
 
-bool Checkpoints::due() const { return Clock::now() - last_ >= std::max(interval_, 100.0 * last_cost_); }
+bool Checkpoints::due() const
+{
+    return Clock::now() - last_ >= std::max(interval_, 100.0 * last_cost_);
+}
 
 fs::path Checkpoints::write(const Particles& particles, const RunState& state)
 {
@@ -278,4 +271,4 @@ fs::path Checkpoints::write(const Particles& particles, const RunState& state)
     return file;
 }
 
-}  // namespace cupel
+} // namespace cupel

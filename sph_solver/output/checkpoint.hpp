@@ -33,16 +33,16 @@ namespace cupel
 /// What a run's state has beside its particles.
 struct RunState
 {
-    double time = 0;         ///< simulated [s]
-    std::uint64_t step = 0;  ///< number of the step that led to `time`
-    std::map<std::string, double> numbers;              ///< clocks and ledgers; names without '/'
-    std::map<std::string, std::vector<double>> arrays;  ///< what is longer than a number; names without '/'
+    double time = 0;                                   ///< simulated [s]
+    std::uint64_t step = 0;                            ///< number of the step that led to `time`
+    std::map<std::string, double> numbers;             ///< clocks and ledgers; names without '/'
+    std::map<std::string, std::vector<double>> arrays; ///< what is longer than a number; names without '/'
 };
 
 struct LoadedCheckpoint
 {
     RunState state;
-    std::string commit;  ///< that wrote it; where it is not this program's, bits may differ from an unbroken run
+    std::string commit; ///< that wrote it; where it is not this program's, bits may differ from an unbroken run
 };
 
 /// Writes every registered field of the particles, their kinds, materials and identities, and the state, whole or not
@@ -53,8 +53,7 @@ void save_checkpoint(const std::filesystem::path& file, const Provenance& proven
 /// Puts a checkpoint's particles into `particles`, in which the same fields have to be registered and which is not
 /// touched where the checkpoint is refused. Throws OutputError where the file is missing, truncated or damaged, where
 /// another version of the code or another case wrote it, or where its particles or fields are not those of the scene.
-LoadedCheckpoint load_checkpoint(const std::filesystem::path& file, const Provenance& provenance,
-                                 Particles& particles);
+LoadedCheckpoint load_checkpoint(const std::filesystem::path& file, const Provenance& provenance, Particles& particles);
 
 /// The checkpoint of the highest step in a folder, if there is one. Throws OutputError where it cannot be read.
 std::optional<std::filesystem::path> newest_checkpoint(const std::filesystem::path& folder);
@@ -85,4 +84,4 @@ private:
     Clock::time_point last_ = Clock::now();
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -5,6 +5,9 @@
 namespace cupel
 {
 
-CodeIdentity code_identity() { return {code_version, code_commit}; }
+CodeIdentity code_identity()
+{
+    return {code_version, code_commit};
+}
 
-}  // namespace cupel
+} // namespace cupel

@@ -9,8 +9,8 @@ namespace cupel
 /// The code that this program was built from.
 struct CodeIdentity
 {
-    std::string version;  ///< e.g. "0.1.0"
-    std::string commit;   ///< abbreviated, with "+changes" where the sources differed from it
+    std::string version; ///< e.g. "0.1.0"
+    std::string commit;  ///< abbreviated, with "+changes" where the sources differed from it
 };
 
 /// Of this build.
@@ -21,8 +21,8 @@ struct Provenance
 {
     CodeIdentity code;
     std::string case_name;
-    std::string case_hash;      ///< of the resolved case
-    std::string resolved_case;  ///< the resolved case as JSON text
+    std::string case_hash;     ///< of the resolved case
+    std::string resolved_case; ///< the resolved case as JSON text
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -31,7 +31,7 @@ HdfHandle open_file(const std::filesystem::path& path)
 {
     silence_library();
     const HdfHandle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access, false, true);  // some network file systems have no locks, and nobody writes to it
+    H5Pset_file_locking(access, false, true); // some network file systems have no locks, and nobody writes to it
     return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
 }
 
@@ -50,20 +50,17 @@ HdfHandle row_of(hid_t space, int rank, hsize_t row, hsize_t length)
     return selected;
 }
 
-}  // namespace
+} // namespace
 
-template <>
-hid_t hdf_type<double>()
+template <> hid_t hdf_type<double>()
 {
     return H5T_NATIVE_DOUBLE;
 }
-template <>
-hid_t hdf_type<std::int32_t>()
+template <> hid_t hdf_type<std::int32_t>()
 {
     return H5T_NATIVE_INT32;
 }
-template <>
-hid_t hdf_type<std::uint8_t>()
+template <> hid_t hdf_type<std::uint8_t>()
 {
     return H5T_NATIVE_UINT8;
 }
@@ -83,7 +80,8 @@ hid_t HdfWriter::checked(hid_t result, std::string_view what) const
 
 void HdfWriter::add_group(const std::string& path)
 {
-    const HdfHandle group(checked(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), path), H5Gclose);
+    const HdfHandle group(checked(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), path),
+                          H5Gclose);
 }
 
 void HdfWriter::add_text(const std::string& object, const std::string& name, const std::string& value)
@@ -105,8 +103,10 @@ void HdfWriter::add_document(const std::string& path, const std::string& value)
     const HdfHandle type(checked(H5Tcopy(H5T_C_S1), path), H5Tclose);
     checked(H5Tset_size(type, value.size() + 1), path);
     H5Tset_cset(type, H5T_CSET_UTF8);
+    const HdfHandle creation(checked(H5Pcreate(H5P_DATASET_CREATE), path), H5Pclose);
+    H5Pset_obj_track_times(creation, false);
     const HdfHandle dataset(
-        checked(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), path), H5Dclose);
+        checked(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), path), H5Dclose);
     checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()), path);
 }
 
@@ -120,8 +120,7 @@ void HdfWriter::add_number(const std::string& object, const std::string& name, d
     checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), name);
 }
 
-template <class T>
-void HdfWriter::add_array(const std::string& path, std::span<const std::span<const T>> rows)
+template <class T> void HdfWriter::add_array(const std::string& path, std::span<const std::span<const T>> rows)
 {
     const hsize_t length = rows.empty() ? 0 : rows[0].size();
     const int rank = rows.size() == 1 ? 1 : 2;
@@ -129,15 +128,15 @@ void HdfWriter::add_array(const std::string& path, std::span<const std::span<con
     const HdfHandle space(checked(H5Screate_simple(rank, rank == 1 ? &length : shape, nullptr), path), H5Sclose);
     const HdfHandle creation(checked(H5Pcreate(H5P_DATASET_CREATE), path), H5Pclose);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
-    const HdfHandle dataset(checked(H5Dcreate2(file_, path.c_str(), hdf_type<T>(), space, H5P_DEFAULT, creation,
-                                               H5P_DEFAULT),
-                                    path),
-                            H5Dclose);
+    H5Pset_obj_track_times(creation, false); // the same state gives the same bytes at any time of day
+    const HdfHandle dataset(
+        checked(H5Dcreate2(file_, path.c_str(), hdf_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT), path),
+        H5Dclose);
     const HdfHandle memory(checked(H5Screate_simple(1, &length, nullptr), path), H5Sclose);
     for (std::size_t row = 0; row < rows.size() && length > 0; ++row)
-        checked(H5Dwrite(dataset, hdf_type<T>(), memory, row_of(space, rank, row, length), H5P_DEFAULT,
-                         rows[row].data()),
-                path);
+        checked(
+            H5Dwrite(dataset, hdf_type<T>(), memory, row_of(space, rank, row, length), H5P_DEFAULT, rows[row].data()),
+            path);
 }
 
 std::span<char> HdfWriter::bytes()
@@ -166,8 +165,7 @@ std::vector<std::string> HdfReader::names(const std::string& group) const
 {
     const HdfHandle opened(checked(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), group), H5Gclose);
     std::vector<std::string> found;
-    const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t
-    {
+    const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
         static_cast<std::vector<std::string>*>(list)->emplace_back(name);
         return 0;
     };
@@ -179,8 +177,7 @@ std::vector<std::string> HdfReader::attribute_names(const std::string& object) c
 {
     const HdfHandle opened(checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), object), H5Oclose);
     std::vector<std::string> found;
-    const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t
-    {
+    const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
         static_cast<std::vector<std::string>*>(list)->emplace_back(name);
         return 0;
     };
@@ -191,8 +188,8 @@ std::vector<std::string> HdfReader::attribute_names(const std::string& object) c
 
 std::string HdfReader::text(const std::string& object, const std::string& name) const
 {
-    const HdfHandle attribute(checked(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name),
-                              H5Aclose);
+    const HdfHandle attribute(
+        checked(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name), H5Aclose);
     const HdfHandle type(checked(H5Aget_type(attribute), name), H5Tclose);
     std::string value(H5Tget_size(type), '\0');
     checked(H5Aread(attribute, type, value.data()), name);
@@ -201,8 +198,8 @@ std::string HdfReader::text(const std::string& object, const std::string& name) 
 
 double HdfReader::number(const std::string& object, const std::string& name) const
 {
-    const HdfHandle attribute(checked(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name),
-                              H5Aclose);
+    const HdfHandle attribute(
+        checked(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name), H5Aclose);
     double value = 0.0;
     checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), name);
     return value;
@@ -215,8 +212,7 @@ std::size_t HdfReader::length(const std::string& path) const
     return count_of(space);
 }
 
-template <class T>
-void HdfReader::read_array(const std::string& path, std::span<const std::span<T>> rows) const
+template <class T> void HdfReader::read_array(const std::string& path, std::span<const std::span<T>> rows) const
 {
     const HdfHandle dataset(checked(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), path), H5Dclose);
     const HdfHandle space(checked(H5Dget_space(dataset), path), H5Sclose);
@@ -226,9 +222,9 @@ void HdfReader::read_array(const std::string& path, std::span<const std::span<T>
         checked(-1, path + " of the expected size");
     const HdfHandle memory(checked(H5Screate_simple(1, &length, nullptr), path), H5Sclose);
     for (std::size_t row = 0; row < rows.size() && length > 0; ++row)
-        checked(H5Dread(dataset, hdf_type<T>(), memory, row_of(space, rank, row, length), H5P_DEFAULT,
-                        rows[row].data()),
-                path);
+        checked(
+            H5Dread(dataset, hdf_type<T>(), memory, row_of(space, rank, row, length), H5P_DEFAULT, rows[row].data()),
+            path);
 }
 
 template void HdfWriter::add_array<double>(const std::string&, std::span<const std::span<const double>>);
@@ -238,4 +234,4 @@ template void HdfReader::read_array<double>(const std::string&, std::span<const 
 template void HdfReader::read_array<std::int32_t>(const std::string&, std::span<const std::span<std::int32_t>>) const;
 template void HdfReader::read_array<std::uint8_t>(const std::string&, std::span<const std::span<std::uint8_t>>) const;
 
-}  // namespace cupel
+} // namespace cupel

@@ -39,14 +39,10 @@ private:
 };
 
 /// The HDF5 type of a C++ type in memory.
-template <class T>
-hid_t hdf_type();
-template <>
-hid_t hdf_type<double>();
-template <>
-hid_t hdf_type<std::int32_t>();
-template <>
-hid_t hdf_type<std::uint8_t>();
+template <class T> hid_t hdf_type();
+template <> hid_t hdf_type<double>();
+template <> hid_t hdf_type<std::int32_t>();
+template <> hid_t hdf_type<std::uint8_t>();
 
 /// An HDF5 file under construction in memory. The library never writes to a disk: it does not survive a full one.
 /// Throws OutputError naming `place` where the library refuses.
@@ -63,10 +59,8 @@ public:
     void add_document(const std::string& path, const std::string& value);
     void add_number(const std::string& object, const std::string& name, double value);
     /// Rows of equal length as one dataset of shape rows × length, or of shape length where there is one row.
-    template <class T>
-    void add_array(const std::string& path, std::span<const std::span<const T>> rows);
-    template <class T>
-    void add_array(const std::string& path, std::span<const T> values)
+    template <class T> void add_array(const std::string& path, std::span<const std::span<const T>> rows);
+    template <class T> void add_array(const std::string& path, std::span<const T> values)
     {
         const std::span<const T> rows[]{values};
         add_array<T>(path, rows);
@@ -98,10 +92,8 @@ public:
     /// Number of values in a dataset; its number of rows is 1 where it has one dimension.
     std::size_t length(const std::string& path) const;
     /// Reads a dataset into rows of equal length; their sizes have to be the dataset's shape.
-    template <class T>
-    void read_array(const std::string& path, std::span<const std::span<T>> rows) const;
-    template <class T>
-    void read_array(const std::string& path, std::span<T> values) const
+    template <class T> void read_array(const std::string& path, std::span<const std::span<T>> rows) const;
+    template <class T> void read_array(const std::string& path, std::span<T> values) const
     {
         const std::span<T> rows[]{values};
         read_array<T>(path, rows);
@@ -114,4 +106,4 @@ private:
     HdfHandle file_;
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -24,21 +24,19 @@ std::string rows_until(double time, std::string_view content, std::string_view h
                                   "or start the run anew");
     std::string kept(header);
     content.remove_prefix(header.size());
-    for (auto end = content.find('\n'); end != std::string_view::npos; end = content.find('\n'))
-    {
+    for (auto end = content.find('\n'); end != std::string_view::npos; end = content.find('\n')) {
         const std::string_view row = content.substr(0, end + 1);
         double row_time = 0.0;
         const auto result = std::from_chars(row.data(), row.data() + row.size(), row_time);
         if (result.ec != std::errc{} || (*result.ptr != ',' && *result.ptr != '\n'))
             throw OutputError(where + ": a row does not begin with a time; start the run anew");
-        if (row_time <= time)
-            kept += row;
+        if (row_time <= time) kept += row;
         content.remove_prefix(end + 1);
     }
     return kept;
 }
 
-}  // namespace
+} // namespace
 
 History::History(std::filesystem::path path, std::vector<std::string> columns, std::optional<double> resume_time)
     : path_(std::move(path)), columns_(std::move(columns))
@@ -54,27 +52,26 @@ History::History(std::filesystem::path path, std::vector<std::string> columns, s
 void History::add(std::span<const double> values)
 {
     if (values.size() != columns_.size())
-        throw std::logic_error(fmt::format("a history of {} columns was given {} values", columns_.size(), values.size()));
+        throw std::logic_error(
+            fmt::format("a history of {} columns was given {} values", columns_.size(), values.size()));
     fmt::format_to(std::back_inserter(pending_), "{}\n", fmt::join(values, ","));
 }
 
 void History::flush()
 {
     if (pending_.empty()) return;
-    FileDescriptor file(path_, O_WRONLY | O_APPEND, "written");  // not O_CREAT: a file without a header is no history
+    FileDescriptor file(path_, O_WRONLY | O_APPEND, "written"); // not O_CREAT: a file without a header is no history
     const auto size_before = ::lseek(file.number(), 0, SEEK_END);
-    try
-    {
+    try {
         file.write(pending_);
         file.flush();
     }
-    catch (const OutputError&)
-    {
+    catch (const OutputError&) {
         if (size_before < 0 || ::ftruncate(file.number(), size_before) != 0)
-            pending_.clear();  // part of the rows is there and stays: no later flush may repeat them
+            pending_.clear(); // part of the rows is there and stays: no later flush may repeat them
         throw;
     }
     pending_.clear();
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -36,4 +36,4 @@ private:
     std::string pending_;
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -8,8 +8,7 @@ namespace cupel
 
 Progress::Progress(double end, double wall_before, std::FILE* stream, std::chrono::milliseconds interval)
     : end_(end), wall_before_(wall_before), stream_(stream), interval_(interval), start_(Clock::now()), last_(start_)
-{
-}
+{}
 
 bool Progress::update(double time, std::uint64_t step)
 {
@@ -28,4 +27,4 @@ void Progress::write(double time, std::uint64_t step)
     std::fflush(stream_);
 }
 
-}  // namespace cupel
+} // namespace cupel

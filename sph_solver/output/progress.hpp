@@ -31,4 +31,4 @@ private:
     Clock::time_point start_, last_;
 };
 
-}  // namespace cupel
+} // namespace cupel

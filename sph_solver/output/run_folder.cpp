@@ -22,7 +22,7 @@ void remove_outputs(const fs::path& folder, std::initializer_list<std::string_vi
     if (error) throw system_output_error(error.value(), folder, "read");
 }
 
-}  // namespace
+} // namespace
 
 RunFolder open_run_folder(const fs::path& folder, bool resume)
 {
@@ -40,4 +40,4 @@ RunFolder open_run_folder(const fs::path& folder, bool resume)
     return run;
 }
 
-}  // namespace cupel
+} // namespace cupel

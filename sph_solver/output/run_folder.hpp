@@ -24,4 +24,4 @@ struct RunFolder
 /// other names stay. Throws OutputError where the folder cannot be made or written.
 RunFolder open_run_folder(const std::filesystem::path& folder, bool resume);
 
-}  // namespace cupel
+} // namespace cupel

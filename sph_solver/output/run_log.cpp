@@ -22,13 +22,11 @@ std::shared_ptr<spdlog::logger> open_run_log(const std::filesystem::path& file, 
 
     auto log = std::make_shared<spdlog::logger>("cupel", spdlog::sinks_init_list{to_file, to_terminal});
     log->flush_on(spdlog::level::trace);
-    log->set_error_handler(
-        [file, said = false](const std::string& reason) mutable
-        {
-            if (!said) std::fprintf(stderr, "%s: the log is not complete: %s\n", file.c_str(), reason.c_str());
-            said = true;
-        });
+    log->set_error_handler([file, said = false](const std::string& reason) mutable {
+        if (!said) std::fprintf(stderr, "%s: the log is not complete: %s\n", file.c_str(), reason.c_str());
+        said = true;
+    });
     return log;
 }
 
-}  // namespace cupel
+} // namespace cupel

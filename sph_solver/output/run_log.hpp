@@ -12,4 +12,4 @@ namespace cupel
 /// (a full disk) is said once on stderr and does not end the run. Throws OutputError where FILE cannot be opened.
 std::shared_ptr<spdlog::logger> open_run_log(const std::filesystem::path& file, bool append);
 
-}  // namespace cupel
+} // namespace cupel

@@ -17,10 +17,12 @@ constexpr double bytes_per_kibibyte = 1024.0;
 
 double cpu_seconds_of_process()
 {
-    struct rusage usage{};
+    struct rusage usage
+    {};
     ::getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& time)
-    { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -47,10 +49,11 @@ nlohmann::ordered_json number(double value)
 nlohmann::ordered_json ledgers_as_json(const RunRecord& record)
 {
     auto ledgers = nlohmann::ordered_json::object();
-    for (const auto& [name, ledger] : record.ledgers)
-    {
-        ledgers[name] = {{"start", number(ledger.start)}, {"end", number(ledger.end)},
-                         {"in", number(ledger.in)},       {"out", number(ledger.out)},
+    for (const auto& [name, ledger] : record.ledgers) {
+        ledgers[name] = {{"start", number(ledger.start)},
+                         {"end", number(ledger.end)},
+                         {"in", number(ledger.in)},
+                         {"out", number(ledger.out)},
                          {"closure", number(ledger.closure())}};
         if (const auto details = record.ledger_details.find(name); details != record.ledger_details.end())
             for (const auto& [key, value] : details->second)
@@ -72,23 +75,26 @@ nlohmann::ordered_json cost_as_json(const RunCost& cost)
             {"time_step_binding", cost.time_step_binding}};
 }
 
-}  // namespace
+} // namespace
 
 CostMeter::CostMeter(double wall_before, double cpu_before)
     : wall_before_(wall_before), cpu_before_(cpu_before - cpu_seconds_of_process())
-{
-}
+{}
 
 double CostMeter::wall_seconds() const
 {
     return wall_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-double CostMeter::cpu_seconds() const { return cpu_before_ + cpu_seconds_of_process(); }
+double CostMeter::cpu_seconds() const
+{
+    return cpu_before_ + cpu_seconds_of_process();
+}
 
 double CostMeter::peak_bytes()
 {
-    struct rusage usage{};
+    struct rusage usage
+    {};
     ::getrusage(RUSAGE_SELF, &usage);
     return bytes_per_kibibyte * static_cast<double>(usage.ru_maxrss);
 }
@@ -123,4 +129,4 @@ void write_record(const std::filesystem::path& file, const RunRecord& record)
     write_whole(file, record_as_json(record).dump(1, ' ', false, replace) + "\n");
 }
 
-}  // namespace cupel
+} // namespace cupel

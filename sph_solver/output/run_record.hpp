@@ -40,30 +40,27 @@ struct RunCost
     double cpu_seconds = 0;
     int threads = 1;
     std::uint64_t steps = 0;
-    std::uint64_t elements = 0;   ///< particles
-    double element_updates = 0;   ///< sum over the steps of the particles updated in each
+    std::uint64_t elements = 0; ///< particles
+    double element_updates = 0; ///< sum over the steps of the particles updated in each
     double peak_bytes = 0;
-    std::map<std::string, std::uint64_t> time_step_binding;  ///< criterion → number of steps that it bound
+    std::map<std::string, std::uint64_t> time_step_binding; ///< criterion → number of steps that it bound
 
     /// Times of the meter and the peak of memory.
     void measure(const CostMeter& meter);
 };
 
-enum class RunStatus
-{
-    completed,
-    stopped
-};
+enum class RunStatus { completed, stopped };
 
 struct RunRecord
 {
     Provenance provenance;
-    nlohmann::json settings;  ///< the resolved case
-    std::string variant;      ///< e.g. the level "coarse"
+    nlohmann::json settings; ///< the resolved case
+    std::string variant;     ///< e.g. the level "coarse"
     RunStatus status = RunStatus::completed;
-    std::string diagnosis;  ///< one line; empty where the run completed
-    std::map<std::string, Ledger> ledgers;  ///< those that the scene has: mass, momentum, energy, volume
-    std::map<std::string, std::map<std::string, double>> ledger_details;  ///< more of a ledger, e.g. energy → laser_absorbed
+    std::string diagnosis;                 ///< one line; empty where the run completed
+    std::map<std::string, Ledger> ledgers; ///< those that the scene has: mass, momentum, energy, volume
+    std::map<std::string, std::map<std::string, double>>
+        ledger_details; ///< more of a ledger, e.g. energy → laser_absorbed
     RunCost cost;
 };
 
@@ -73,4 +70,4 @@ nlohmann::ordered_json record_as_json(const RunRecord& record);
 /// Writes the record, whole or not at all: the last file that a run writes. Throws OutputError.
 void write_record(const std::filesystem::path& file, const RunRecord& record);
 
-}  // namespace cupel
+} // namespace cupel

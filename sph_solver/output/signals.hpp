@@ -9,7 +9,10 @@ namespace cupel
 /// The signal that asked for the end of the run; 0 as long as none did.
 inline volatile std::sig_atomic_t stop_signal = 0;
 
-inline bool stop_requested() { return stop_signal != 0; }
+inline bool stop_requested()
+{
+    return stop_signal != 0;
+}
 
 /// Exit status of a run that a signal ended after it left a checkpoint.
 inline constexpr int interrupted_exit_status = 130;
@@ -19,14 +22,13 @@ inline constexpr int interrupted_exit_status = 130;
 /// a terminal's Ctrl-C comes twice where the caller passes it on as well.
 inline void catch_stop_signals()
 {
-    struct sigaction action{};
-    action.sa_handler = [](int signal)
-    {
+    struct sigaction action
+    {};
+    action.sa_handler = [](int signal) {
         static volatile std::sig_atomic_t received = 0;
         received = received + 1;
         stop_signal = signal;
-        if (received >= 3)
-        {
+        if (received >= 3) {
             std::signal(signal, SIG_DFL);
             std::raise(signal);
         }
@@ -39,4 +41,4 @@ inline void catch_stop_signals()
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace cupel
+} // namespace cupel

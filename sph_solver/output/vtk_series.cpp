@@ -49,8 +49,7 @@ void add_points(vtkPolyData* output, const Particles& particles, const std::vect
     points->SetNumberOfPoints(static_cast<vtkIdType>(written.size()));
     vtkNew<vtkCellArray> vertices;
     vertices->AllocateExact(static_cast<vtkIdType>(written.size()), static_cast<vtkIdType>(written.size()));
-    for (std::size_t k = 0; k < written.size(); ++k)
-    {
+    for (std::size_t k = 0; k < written.size(); ++k) {
         const Vector place = particles.position[written[k]];
         const auto point = static_cast<vtkIdType>(k);
         points->SetPoint(point, place.x, place.y, place.z);
@@ -62,8 +61,7 @@ void add_points(vtkPolyData* output, const Particles& particles, const std::vect
 
 void add_fields(vtkPointData* data, const Particles& particles, const std::vector<Index>& written)
 {
-    for (const auto& field : particles.scalars())
-    {
+    for (const auto& field : particles.scalars()) {
         if (field->info.output != Output::yes) continue;
         const auto array = float_array(field->info.name, 1, written.size());
         float* values = array->GetPointer(0);
@@ -71,13 +69,11 @@ void add_fields(vtkPointData* data, const Particles& particles, const std::vecto
             values[k] = static_cast<float>((*field)[written[k]]);
         data->AddArray(array);
     }
-    for (const auto& field : particles.vectors())
-    {
+    for (const auto& field : particles.vectors()) {
         if (field->info.output != Output::yes) continue;
         const auto array = float_array(field->info.name, 3, written.size());
         float* values = array->GetPointer(0);
-        for (std::size_t k = 0; k < written.size(); ++k)
-        {
+        for (std::size_t k = 0; k < written.size(); ++k) {
             const Vector value = (*field)[written[k]];
             values[3 * k] = static_cast<float>(value.x);
             values[3 * k + 1] = static_cast<float>(value.y);
@@ -106,8 +102,7 @@ std::vector<std::pair<double, std::string>> read_list(const fs::path& file)
 {
     std::vector<std::pair<double, std::string>> entries;
     const std::string content = read_whole(file);
-    for (std::size_t begin = 0; begin < content.size();)
-    {
+    for (std::size_t begin = 0; begin < content.size();) {
         const auto end = std::min(content.find('\n', begin), content.size());
         const std::string_view line = std::string_view(content).substr(begin, end - begin);
         begin = end + 1;
@@ -122,7 +117,10 @@ std::vector<std::pair<double, std::string>> read_list(const fs::path& file)
     return entries;
 }
 
-std::string file_name(int number) { return fmt::format("fields_{:06}.vtp", number); }
+std::string file_name(int number)
+{
+    return fmt::format("fields_{:06}.vtp", number);
+}
 
 int number_of(const std::string& name)
 {
@@ -130,7 +128,7 @@ int number_of(const std::string& name)
     return std::sscanf(name.c_str(), "fields_%d.vtp", &number) == 1 ? number : -1;
 }
 
-}  // namespace
+} // namespace
 
 void write_snapshot(const fs::path& file, const Particles& particles, double time, const Provenance& provenance)
 {
@@ -172,10 +170,8 @@ VtkSeries::VtkSeries(fs::path folder, Provenance provenance, std::optional<doubl
     : folder_(std::move(folder)), provenance_(std::move(provenance))
 {
     if (resume_time && fs::exists(folder_ / "fields.pvd"))
-        for (auto& entry : read_list(folder_ / "fields.pvd"))
-        {
-            if (entry.first > *resume_time)
-            {
+        for (auto& entry : read_list(folder_ / "fields.pvd")) {
+            if (entry.first > *resume_time) {
                 remove_file(folder_ / entry.second);
                 continue;
             }
@@ -207,4 +203,4 @@ void VtkSeries::write_list() const
     write_whole(folder_ / "fields.pvd", text);
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -40,8 +40,8 @@ private:
 
     std::filesystem::path folder_;
     Provenance provenance_;
-    std::vector<std::pair<double, std::string>> entries_;  ///< time [s] and file name
+    std::vector<std::pair<double, std::string>> entries_; ///< time [s] and file name
     int next_number_ = 0;
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -22,13 +22,12 @@ constexpr int exit_refused = 2;
 int print(const std::string& text)
 {
     std::cout << text << std::flush;
-    if (std::cout)
-        return 0;
+    if (std::cout) return 0;
     std::cerr << "cupel_case: the output cannot be written; check the pipe or the disk\n";
     return exit_failed;
 }
 
-}  // namespace
+} // namespace
 
 int main(int argument_count, char** arguments)
 {
@@ -47,29 +46,25 @@ int main(int argument_count, char** arguments)
     CLI::App* schema = program.add_subcommand("schema", "print the JSON schema of case files");
     program.add_subcommand("list-parameters", "print every parameter as Markdown");
 
-    try
-    {
+    try {
         program.parse(argument_count, arguments);
     }
-    catch (const CLI::ParseError& error)
-    {
-        return program.exit(error) == 0 ? 0 : exit_refused;
+    catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);
+        std::cerr << "cupel_case: " << error.what() << "; cupel_case --help lists what it takes\n";
+        return exit_refused;
     }
 
-    try
-    {
+    try {
         options.require_files = !without_files;
-        if (resolve->parsed())
-            return print(cupel::resolve_case(case_file, options).dump(2) + "\n");
+        if (resolve->parsed()) return print(cupel::resolve_case(case_file, options).dump(2) + "\n");
         return print(schema->parsed() ? cupel::case_schema().dump(2) + "\n" : cupel::parameter_reference());
     }
-    catch (const cupel::CaseError& error)
-    {
+    catch (const cupel::CaseError& error) {
         std::cerr << error.what() << '\n';
         return exit_refused;
     }
-    catch (const std::exception& error)
-    {
+    catch (const std::exception& error) {
         std::cerr << "cupel_case: " << error.what() << '\n';
         return exit_failed;
     }

@@ -51,14 +51,10 @@ Material material_from(const std::string& name, const json& table)
 
 BoundaryKind boundary_kind(const std::string& text)
 {
-    if (text == "wall")
-        return BoundaryKind::wall;
-    if (text == "symmetry")
-        return BoundaryKind::symmetry;
-    if (text == "open")
-        return BoundaryKind::open;
-    if (text == "periodic")
-        return BoundaryKind::periodic;
+    if (text == "wall") return BoundaryKind::wall;
+    if (text == "symmetry") return BoundaryKind::symmetry;
+    if (text == "open") return BoundaryKind::open;
+    if (text == "periodic") return BoundaryKind::periodic;
     throw CaseError("resolved case: domain.boundaries: unknown kind '" + text + "'; resolve the case again");
 }
 
@@ -67,11 +63,9 @@ Domain domain_from(const json& table)
     Domain domain;
     domain.lower = table.at("lower").get<Vector3>();
     domain.upper = table.at("upper").get<Vector3>();
-    for (std::size_t side = 0; side < side_names.size(); ++side)
-    {
+    for (std::size_t side = 0; side < side_names.size(); ++side) {
         const auto found = table.at("boundaries").find(side_names[side]);
-        if (found == table.at("boundaries").end())
-            continue;
+        if (found == table.at("boundaries").end()) continue;
         Boundary boundary;
         boundary.kind = boundary_kind(found->at("kind"));
         boundary.no_slip = found->value("slip", "no_slip") == "no_slip";
@@ -87,8 +81,7 @@ Body body_from(const json& table)
     const std::string shape = table.at("shape");
     body.material = table.at("material");
     body.solid = table.at("state") == "solid";
-    if (shape == "sphere")
-    {
+    if (shape == "sphere") {
         body.shape = BodyShape::sphere;
         body.center = table.at("center").get<Vector3>();
         body.radius = table.at("radius");
@@ -98,8 +91,7 @@ Body body_from(const json& table)
         throw CaseError("resolved case: bodies: unknown shape '" + shape + "'; resolve the case again");
     body.lower = table.at("lower").get<Vector3>();
     body.upper = table.at("upper").get<Vector3>();
-    if (shape == "powder_bed")
-    {
+    if (shape == "powder_bed") {
         body.shape = BodyShape::powder_bed;
         body.file = table.at("file");
     }
@@ -155,7 +147,7 @@ bool present(const json& table, const char* key)
     return found != table.end() && !found->is_null();
 }
 
-}  // namespace
+} // namespace
 
 double Laser::off_time() const
 {
@@ -166,8 +158,7 @@ double Laser::off_time() const
 std::array<double, 2> Laser::position(double time) const
 {
     const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-    if (length == 0 || speed == 0)
-        return from;
+    if (length == 0 || speed == 0) return from;
     const double share = std::clamp((time - start) * speed / length, 0.0, 1.0);
     return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
 }
@@ -182,8 +173,7 @@ bool Case::requires_physics(std::string_view physics_name) const
 const Material& Case::material(const std::string& material_name) const
 {
     const auto found = materials.find(material_name);
-    if (found == materials.end())
-        throw CaseError("material: the case has none of the name '" + material_name + "'");
+    if (found == materials.end()) throw CaseError("material: the case has none of the name '" + material_name + "'");
     return found->second;
 }
 
@@ -197,8 +187,7 @@ double Case::initial_temperature(const Vector3& position) const
 
 Case case_from_resolved(const json& resolved)
 {
-    try
-    {
+    try {
         if (const int schema = resolved.at("schema"); schema != resolved_schema_version)
             throw CaseError("resolved case: schema " + std::to_string(schema) + " is not the " +
                             std::to_string(resolved_schema_version) + " of this program; resolve the case again");
@@ -213,26 +202,21 @@ Case case_from_resolved(const json& resolved)
         result.physics = resolved.at("physics").get<std::vector<std::string>>();
         for (const auto& [name, table] : resolved.at("materials").items())
             result.materials.emplace(name, material_from(name, table));
-        if (present(resolved, "surrounding"))
-            result.surrounding = surrounding_from(resolved.at("surrounding"));
+        if (present(resolved, "surrounding")) result.surrounding = surrounding_from(resolved.at("surrounding"));
         result.domain = domain_from(resolved.at("domain"));
-        if (present(resolved, "gravity"))
-            result.gravity = resolved.at("gravity").get<Vector3>();
-        if (present(resolved, "initial"))
-        {
+        if (present(resolved, "gravity")) result.gravity = resolved.at("gravity").get<Vector3>();
+        if (present(resolved, "initial")) {
             result.initial.temperature = resolved.at("initial").at("temperature");
             result.initial.temperature_gradient = resolved.at("initial").at("temperature_gradient").get<Vector3>();
         }
         for (const json& body : resolved.at("bodies"))
             result.bodies.push_back(body_from(body));
-        if (present(resolved, "laser"))
-            result.laser = laser_from(resolved.at("laser"));
+        if (present(resolved, "laser")) result.laser = laser_from(resolved.at("laser"));
         result.time = {resolved.at("time").at("end"), resolved.at("time").at("output_interval")};
         result.numerics = numerics_from(resolved.at("numerics"));
         return result;
     }
-    catch (const json::exception& error)
-    {
+    catch (const json::exception& error) {
         throw CaseError(std::string("resolved case: ") + error.what() +
                         "; make it again with cupel_case resolve CASE.toml");
     }
@@ -241,18 +225,15 @@ Case case_from_resolved(const json& resolved)
 Case read_resolved_case(const std::string& path)
 {
     std::ifstream stream(path);
-    if (!stream)
-        throw CaseError(path + ": cannot be opened; make it with cupel_case resolve CASE.toml > " + path);
+    if (!stream) throw CaseError(path + ": cannot be opened; make it with cupel_case resolve CASE.toml > " + path);
     json resolved;
-    try
-    {
+    try {
         resolved = json::parse(stream);
     }
-    catch (const json::exception& error)
-    {
+    catch (const json::exception& error) {
         throw CaseError(path + ": is not JSON (" + error.what() + "); make it again with cupel_case resolve");
     }
     return case_from_resolved(resolved);
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -30,81 +30,66 @@ public:
 struct Material
 {
     std::string name;
-    double density = 0;                                           ///< liquid or gas [kg/m^3]
-    std::optional<double> density_solid;                          ///< [kg/m^3]
-    std::optional<double> viscosity;                              ///< dynamic [Pa s]
-    std::optional<double> specific_heat;                          ///< liquid [J/(kg K)]
-    std::optional<double> specific_heat_solid;                    ///< [J/(kg K)]
-    std::optional<double> conductivity;                           ///< liquid [W/(m K)]
-    std::optional<double> conductivity_solid;                     ///< [W/(m K)]
-    std::optional<double> solidus;                                ///< [K]
-    std::optional<double> liquidus;                               ///< [K]
-    std::optional<double> melting_temperature;                    ///< isotherm that bounds the melt pool in measures [K]
-    std::optional<double> latent_heat;                            ///< of melting [J/kg]
-    std::optional<double> surface_tension;                        ///< at the reference temperature [N/m]
-    std::optional<double> surface_tension_slope;                  ///< d(sigma)/dT [N/(m K)]
-    std::optional<double> surface_tension_reference_temperature;  ///< [K]
-    std::optional<double> surface_tension_minimum;                ///< floor of sigma(T) [N/m]
-    std::optional<double> contact_angle;                          ///< through this material, on walls and solids [rad]
-    std::optional<double> boiling_temperature;                    ///< at the surrounding's pressure [K]
-    std::optional<double> vaporization_heat;                      ///< [J/kg]
-    std::optional<double> molar_mass;                             ///< [kg/mol]
-    std::optional<double> emissivity;                             ///< [1]
-    std::optional<double> absorptivity;                           ///< of the laser's light [1]
+    double density = 0;                                          ///< liquid or gas [kg/m^3]
+    std::optional<double> density_solid;                         ///< [kg/m^3]
+    std::optional<double> viscosity;                             ///< dynamic [Pa s]
+    std::optional<double> specific_heat;                         ///< liquid [J/(kg K)]
+    std::optional<double> specific_heat_solid;                   ///< [J/(kg K)]
+    std::optional<double> conductivity;                          ///< liquid [W/(m K)]
+    std::optional<double> conductivity_solid;                    ///< [W/(m K)]
+    std::optional<double> solidus;                               ///< [K]
+    std::optional<double> liquidus;                              ///< [K]
+    std::optional<double> melting_temperature;                   ///< isotherm that bounds the melt pool in measures [K]
+    std::optional<double> latent_heat;                           ///< of melting [J/kg]
+    std::optional<double> surface_tension;                       ///< at the reference temperature [N/m]
+    std::optional<double> surface_tension_slope;                 ///< d(sigma)/dT [N/(m K)]
+    std::optional<double> surface_tension_reference_temperature; ///< [K]
+    std::optional<double> surface_tension_minimum;               ///< floor of sigma(T) [N/m]
+    std::optional<double> contact_angle;                         ///< through this material, on walls and solids [rad]
+    std::optional<double> boiling_temperature;                   ///< at the surrounding's pressure [K]
+    std::optional<double> vaporization_heat;                     ///< [J/kg]
+    std::optional<double> molar_mass;                            ///< [kg/mol]
+    std::optional<double> emissivity;                            ///< [1]
+    std::optional<double> absorptivity;                          ///< of the laser's light [1]
 };
 
 /// What is outside the bodies.
 struct Surrounding
 {
     std::string material;
-    bool resolved = false;            ///< true: with particles of its own; false: nothing there for SPH
-    double temperature = 300;         ///< far away [K]
-    double pressure = 101325;         ///< far away [Pa]
-    double convection_coefficient = 0;  ///< [W/(m^2 K)]
+    bool resolved = false;             ///< true: with particles of its own; false: nothing there for SPH
+    double temperature = 300;          ///< far away [K]
+    double pressure = 101325;          ///< far away [Pa]
+    double convection_coefficient = 0; ///< [W/(m^2 K)]
 };
 
-enum class BoundaryKind
-{
-    wall,
-    symmetry,
-    open,
-    periodic
-};
+enum class BoundaryKind { wall, symmetry, open, periodic };
 
 /// One side of the domain.
 struct Boundary
 {
     BoundaryKind kind = BoundaryKind::wall;
-    bool no_slip = true;                ///< walls only
-    std::optional<double> temperature;  ///< [K]; empty = adiabatic
+    bool no_slip = true;               ///< walls only
+    std::optional<double> temperature; ///< [K]; empty = adiabatic
 };
 
 /// Index of a side of the domain in Domain::boundaries.
-enum class Side : std::size_t
-{
-    x_min,
-    x_max,
-    y_min,
-    y_max,
-    z_min,
-    z_max
-};
+enum class Side : std::size_t { x_min, x_max, y_min, y_max, z_min, z_max };
 
 inline constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
 struct Domain
 {
-    Vector3 lower{};                                    ///< [m]
-    Vector3 upper{};                                    ///< [m]
-    std::array<std::optional<Boundary>, 6> boundaries;  ///< y_min and y_max are empty in two dimensions
+    Vector3 lower{};                                   ///< [m]
+    Vector3 upper{};                                   ///< [m]
+    std::array<std::optional<Boundary>, 6> boundaries; ///< y_min and y_max are empty in two dimensions
 
     const std::optional<Boundary>& boundary(Side side) const { return boundaries[static_cast<std::size_t>(side)]; }
 };
 
-enum class BodyShape
-{
+enum class BodyShape {
     box,
-    sphere,  ///< a disc in two dimensions
+    sphere, ///< a disc in two dimensions
     powder_bed
 };
 
@@ -113,30 +98,30 @@ struct Body
 {
     BodyShape shape = BodyShape::box;
     std::string material;
-    bool solid = false;  ///< state at the start
-    Vector3 lower{};     ///< box, powder bed [m]
-    Vector3 upper{};     ///< box, powder bed [m]
-    Vector3 center{};    ///< sphere [m]
-    double radius = 0;   ///< sphere [m]
-    std::string file;    ///< powder bed: absolute path of its spheres (read_powder_bed)
+    bool solid = false; ///< state at the start
+    Vector3 lower{};    ///< box, powder bed [m]
+    Vector3 upper{};    ///< box, powder bed [m]
+    Vector3 center{};   ///< sphere [m]
+    double radius = 0;  ///< sphere [m]
+    std::string file;   ///< powder bed: absolute path of its spheres (read_powder_bed)
 };
 
 struct Initial
 {
-    double temperature = 300;        ///< at domain.lower [K]
-    Vector3 temperature_gradient{};  ///< [K/m]; the field is temperature + gradient . (x - domain.lower)
+    double temperature = 300;       ///< at domain.lower [K]
+    Vector3 temperature_gradient{}; ///< [K/m]; the field is temperature + gradient . (x - domain.lower)
 };
 
 /// Gaussian beam straight down (-z) along a line on the plate; off before `start` and once `to` is reached.
 struct Laser
 {
-    double power = 0;         ///< of the beam [W]
-    double speed = 0;         ///< of scanning [m/s]
-    double spot_radius = 0;   ///< 1/e^2 [m]
-    double absorptivity = 0;  ///< share that the surface hit absorbs [1]
+    double power = 0;        ///< of the beam [W]
+    double speed = 0;        ///< of scanning [m/s]
+    double spot_radius = 0;  ///< 1/e^2 [m]
+    double absorptivity = 0; ///< share that the surface hit absorbs [1]
     std::array<double, 2> from{};
     std::array<double, 2> to{};
-    double start = 0;  ///< [s]
+    double start = 0; ///< [s]
 
     /// Time at which the beam goes off [s]; infinite for a beam at rest (from = to or speed = 0).
     double off_time() const;
@@ -146,35 +131,32 @@ struct Laser
 
 struct TimeSpan
 {
-    double end = 0;              ///< [s]
-    double output_interval = 0;  ///< of field snapshots [s]
+    double end = 0;             ///< [s]
+    double output_interval = 0; ///< of field snapshots [s]
 };
 
-enum class Kernel
-{
-    quintic_spline,
-    wendland_c2
-};
+enum class Kernel { quintic_spline, wendland_c2 };
 
-/// Numerical choices of the SPH solver; the meaning and default of each are in its declaration (declarations_numerics.cpp).
+/// Numerical choices of the SPH solver; the meaning and default of each are in its declaration
+/// (declarations_numerics.cpp).
 struct Numerics
 {
-    std::string formulation = "default";  ///< "default" or "paper"
+    std::string formulation = "default"; ///< "default" or "paper"
     Kernel kernel = Kernel::quintic_spline;
-    double smoothing_ratio = 1.0;  ///< smoothing length / particle spacing
+    double smoothing_ratio = 1.0; ///< smoothing length / particle spacing
     double artificial_viscosity = 0;
     double artificial_viscosity_beta = 0;
     double artificial_stress = 0;
     double artificial_heat = 0;
     double density_diffusion = 0;
-    double shifting = 0;  ///< strength, 0 = off, 1 = full
-    std::optional<double> sound_speed;      ///< [m/s]
-    double sound_speed_factor = 10;         ///< sound speed / greatest expected speed
-    std::optional<double> reference_speed;  ///< greatest expected speed [m/s]
+    double shifting = 0;                   ///< strength, 0 = off, 1 = full
+    std::optional<double> sound_speed;     ///< [m/s]
+    double sound_speed_factor = 10;        ///< sound speed / greatest expected speed
+    std::optional<double> reference_speed; ///< greatest expected speed [m/s]
     double time_step_factor = 1;
     double thermal_time_step_factor = 1;
-    bool single_precision = false;  ///< pair arithmetic in float
-    double skin = 0;                ///< extra radius of the neighbour list / particle spacing
+    bool single_precision = false; ///< pair arithmetic in float
+    double skin = 0;               ///< extra radius of the neighbour list / particle spacing
     bool only_what_moves = true;
     double background_pressure_factor = 0;
 };
@@ -185,8 +167,8 @@ struct Case
     std::string title;
     std::string hash;   ///< sha256 of the resolved content
     std::string level;  ///< coarse, medium, fine or paper
-    double spacing = 0;  ///< particle spacing or cell size [m]
-    int dimensions = 3;  ///< 2: the x-z plane
+    double spacing = 0; ///< particle spacing or cell size [m]
+    int dimensions = 3; ///< 2: the x-z plane
     std::vector<std::string> physics;
     std::map<std::string, Material> materials;
     std::optional<Surrounding> surrounding;
@@ -197,9 +179,10 @@ struct Case
     std::optional<Laser> laser;
     TimeSpan time;
     Numerics numerics;
-    nlohmann::json resolved;  ///< the whole resolved case, as it goes into a result
+    nlohmann::json resolved; ///< the whole resolved case, as it goes into a result
 
-    /// Whether the case names a physics, e.g. requires_physics("marangoni"). Throws CaseError for a name that no case can have.
+    /// Whether the case names a physics, e.g. requires_physics("marangoni"). Throws CaseError for a name that no case
+    /// can have.
     bool requires_physics(std::string_view physics_name) const;
     /// The material of a name; throws CaseError if there is none.
     const Material& material(const std::string& material_name) const;
@@ -213,4 +196,4 @@ Case case_from_resolved(const nlohmann::json& resolved);
 /// The same from a file. Throws CaseError when it cannot be read.
 Case read_resolved_case(const std::string& path);
 
-}  // namespace cupel
+} // namespace cupel

@@ -12,20 +12,19 @@
 namespace cupel
 {
 
-enum class Type
-{
-    quantity,      ///< number with the declared unit; "1" is a plain number or a percentage
-    vector,        ///< list of `components` quantities
-    integer,       ///< whole number
-    boolean,       ///< true or false
-    strength,      ///< number, or true = 1 and false = 0
-    text,          ///< any text
-    text_list,     ///< list of texts
-    choice,        ///< one of `choices`
-    choice_list,   ///< list of some of `choices`, none twice
-    file,          ///< path relative to the file in which it stands
-    time_window,   ///< two times, of which the second may be "end"
-    any_quantity,  ///< quantity whose unit follows from another key of the same table
+enum class Type {
+    quantity,     ///< number with the declared unit; "1" is a plain number or a percentage
+    vector,       ///< list of `components` quantities
+    integer,      ///< whole number
+    boolean,      ///< true or false
+    strength,     ///< number, or true = 1 and false = 0
+    text,         ///< any text
+    text_list,    ///< list of texts
+    choice,       ///< one of `choices`
+    choice_list,  ///< list of some of `choices`, none twice
+    file,         ///< path relative to the file in which it stands
+    time_window,  ///< two times, of which the second may be "end"
+    any_quantity, ///< quantity whose unit follows from another key of the same table
 };
 
 /// Bounds of a value in SI; each may be absent.
@@ -41,17 +40,17 @@ struct Parameter
 {
     std::string key;
     Type type = Type::quantity;
-    std::string unit = "1";  ///< SI unit of the resolved value
+    std::string unit = "1"; ///< SI unit of the resolved value
     std::string help;
     Bounds bounds;
     std::vector<std::string> choices;
     std::size_t components = 0;
     bool required = false;
-    std::optional<nlohmann::json> fallback;        ///< default in SI; absent and not required: the key may be absent
-    std::optional<nlohmann::json> paper_fallback;  ///< default with numerics.formulation = "paper", where it differs
-    std::string derivation;                        ///< how a default that is no constant comes about
-    std::string only_with;                         ///< the key of the same table that decides whether this one applies
-    std::vector<std::string> only_values;          ///< the values of only_with with which it applies
+    std::optional<nlohmann::json> fallback;       ///< default in SI; absent and not required: the key may be absent
+    std::optional<nlohmann::json> paper_fallback; ///< default with numerics.formulation = "paper", where it differs
+    std::string derivation;                       ///< how a default that is no constant comes about
+    std::string only_with;                        ///< the key of the same table that decides whether this one applies
+    std::vector<std::string> only_values;         ///< the values of only_with with which it applies
 
     Parameter& must() { return required = true, *this; }
     Parameter& or_else(nlohmann::json value) { return fallback = std::move(value), *this; }
@@ -71,18 +70,17 @@ struct Parameter
 
 struct Table
 {
-    enum class Occurrence
-    {
-        once,    ///< [key]
-        named,   ///< [key.NAME]
-        listed,  ///< [[key]]
+    enum class Occurrence {
+        once,   ///< [key]
+        named,  ///< [key.NAME]
+        listed, ///< [[key]]
     };
 
     std::string key;
     std::string help;
     Occurrence occurrence = Occurrence::once;
     bool required = false;
-    bool filled = false;  ///< an absent table still gives its defaults
+    bool filled = false; ///< an absent table still gives its defaults
     std::vector<Parameter> parameters{};
     std::vector<Table> tables{};
 };
@@ -114,4 +112,4 @@ const std::vector<MeasureDeclaration>& measure_declarations();
 /// Levels of resolution, cheapest first.
 const std::vector<std::string>& level_names();
 
-}  // namespace cupel
+} // namespace cupel

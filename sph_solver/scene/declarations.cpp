@@ -33,14 +33,15 @@ Table resolution_declaration()
 
 Table boundary_declaration(const std::string& side)
 {
-    return {side,
-            "the side " + side + " of the domain",
-            Table::Occurrence::once,
-            false,
-            false,
-            {choice("kind", {"wall", "symmetry", "open", "periodic"}, "what the side is").must(),
-             choice("slip", {"no_slip", "free_slip"}, "motion along the wall").with("kind", {"wall"}).or_else("no_slip"),
-             quantity("temperature", "K", "temperature of the wall").above(0).with("kind", {"wall"}).derived("adiabatic")}};
+    return {
+        side,
+        "the side " + side + " of the domain",
+        Table::Occurrence::once,
+        false,
+        false,
+        {choice("kind", {"wall", "symmetry", "open", "periodic"}, "what the side is").must(),
+         choice("slip", {"no_slip", "free_slip"}, "motion along the wall").with("kind", {"wall"}).or_else("no_slip"),
+         quantity("temperature", "K", "temperature of the wall").above(0).with("kind", {"wall"}).derived("adiabatic")}};
 }
 
 Table domain_declaration()
@@ -59,35 +60,37 @@ Table domain_declaration()
 
 Table body_declaration()
 {
-    return {"body",
-            "a part of the domain filled with a material at the start; later bodies lie over earlier ones",
-            Table::Occurrence::listed,
-            true,
-            false,
-            {choice("shape", {"box", "sphere", "powder_bed"}, "shape; a sphere is a disc in two dimensions").must(),
-             plain("material", Type::text, "name of a [material.NAME]").must(),
-             choice("state", {"solid", "liquid"}, "state at the start").must(),
-             vector("lower", 3, "m", "least x, y, z").with("shape", {"box", "powder_bed"}).must(),
-             vector("upper", 3, "m", "greatest x, y, z").with("shape", {"box", "powder_bed"}).must(),
-             vector("center", 3, "m", "centre").with("shape", {"sphere"}).must(),
-             quantity("radius", "m", "radius").above(0).with("shape", {"sphere"}).must(),
-             plain("file", Type::file, "spheres of the bed, made by ./cupel bed").with("shape", {"powder_bed"}).must()}};
+    return {
+        "body",
+        "a part of the domain filled with a material at the start; later bodies lie over earlier ones",
+        Table::Occurrence::listed,
+        true,
+        false,
+        {choice("shape", {"box", "sphere", "powder_bed"}, "shape; a sphere is a disc in two dimensions").must(),
+         plain("material", Type::text, "name of a [material.NAME]").must(),
+         choice("state", {"solid", "liquid"}, "state at the start").must(),
+         vector("lower", 3, "m", "least x, y, z").with("shape", {"box", "powder_bed"}).must(),
+         vector("upper", 3, "m", "greatest x, y, z").with("shape", {"box", "powder_bed"}).must(),
+         vector("center", 3, "m", "centre").with("shape", {"sphere"}).must(),
+         quantity("radius", "m", "radius").above(0).with("shape", {"sphere"}).must(),
+         plain("file", Type::file, "spheres of the bed, made by ./cupel bed").with("shape", {"powder_bed"}).must()}};
 }
 
 Table surrounding_declaration()
 {
-    return {"surrounding",
-            "what is outside the bodies; left out where the bodies fill the domain",
-            Table::Occurrence::once,
-            false,
-            false,
-            {plain("material", Type::text, "name of a [material.NAME]").must(),
-             plain("resolved", Type::boolean, "true: SPH gives it particles; false: it is nothing to SPH").must(),
-             quantity("temperature", "K", "temperature far away").above(0).derived("initial.temperature"),
-             quantity("pressure", "Pa", "pressure far away").above(0).or_else(101325.0),
-             quantity("convection_coefficient", "W/(m^2 K)", "coefficient of convective loss, part of physics radiation")
-                 .at_least(0)
-                 .or_else(0.0)}};
+    return {
+        "surrounding",
+        "what is outside the bodies; left out where the bodies fill the domain",
+        Table::Occurrence::once,
+        false,
+        false,
+        {plain("material", Type::text, "name of a [material.NAME]").must(),
+         plain("resolved", Type::boolean, "true: SPH gives it particles; false: it is nothing to SPH").must(),
+         quantity("temperature", "K", "temperature far away").above(0).derived("initial.temperature"),
+         quantity("pressure", "Pa", "pressure far away").above(0).or_else(101325.0),
+         quantity("convection_coefficient", "W/(m^2 K)", "coefficient of convective loss, part of physics radiation")
+             .at_least(0)
+             .or_else(0.0)}};
 }
 
 Table laser_declaration()
@@ -115,27 +118,30 @@ Table laser_declaration()
 
 Table measure_declaration()
 {
-    return {"measure",
-            "a number to take from the result, and what it is judged by",
-            Table::Occurrence::listed,
-            false,
-            false,
-            {choice("name", measure_names(), "what is measured").must(),
-             plain("between", Type::time_window, "times between which it is taken").must(),
-             plain("tolerance", Type::any_quantity, "greatest error, in the measure's unit or as a share").derived("not judged"),
-             choice("metric", {"relative", "absolute"}, "whether the error is divided by the reference")
-                 .derived("absolute where the tolerance has the measure's unit, else relative; needed where both have none")},
-            {{"reference",
-              "what the measure is compared with; needed where there is a tolerance",
-              Table::Occurrence::once,
-              false,
-              false,
-              {choice("kind", {"exact", "tabulated", "solver", "experiment", "paper"}, "where the reference comes from")
-                   .derived("solver where reference.solver is given"),
-               plain("value", Type::any_quantity, "the reference itself, in the measure's unit")
-                   .with("kind", {"exact", "tabulated", "experiment", "paper"}),
-               choice("solver", {"sph", "openfoam"}, "the solver whose result is the reference").with("kind", {"solver"}),
-               plain("source", Type::text, "formula, publication or table").or_else("")}}}};
+    return {
+        "measure",
+        "a number to take from the result, and what it is judged by",
+        Table::Occurrence::listed,
+        false,
+        false,
+        {choice("name", measure_names(), "what is measured").must(),
+         plain("between", Type::time_window, "times between which it is taken").must(),
+         plain("tolerance", Type::any_quantity, "greatest error, in the measure's unit or as a share")
+             .derived("not judged"),
+         choice("metric", {"relative", "absolute"}, "whether the error is divided by the reference")
+             .derived(
+                 "absolute where the tolerance has the measure's unit, else relative; needed where both have none")},
+        {{"reference",
+          "what the measure is compared with; needed where there is a tolerance",
+          Table::Occurrence::once,
+          false,
+          false,
+          {choice("kind", {"exact", "tabulated", "solver", "experiment", "paper"}, "where the reference comes from")
+               .derived("solver where reference.solver is given"),
+           plain("value", Type::any_quantity, "the reference itself, in the measure's unit")
+               .with("kind", {"exact", "tabulated", "experiment", "paper"}),
+           choice("solver", {"sph", "openfoam"}, "the solver whose result is the reference").with("kind", {"solver"}),
+           plain("source", Type::text, "formula, publication or table").or_else("")}}}};
 }
 
 Table time_declaration()
@@ -179,7 +185,7 @@ Table root_declaration()
              powder_declaration(), numerics_declaration()}};
 }
 
-}  // namespace
+} // namespace
 
 Parameter quantity(std::string key, std::string unit, std::string help)
 {
@@ -239,13 +245,24 @@ const std::vector<MeasureDeclaration>& measure_declarations()
         {"base_radius", "m", "radius of the wetted base of a drop"},
         {"apex_height", "m", "height of a drop above the wall"},
         {"profile_error", "1", "L2 error of the velocity profile over the exact surface speed"},
+        {"mean_profile_error", "1", "the same of the profile averaged over the snapshots"},
         {"surface_speed", "m/s", "speed along the liquid's surface at mid-length"},
+        {"zero_crossing", "1", "relative height at which the velocity profile changes its sign"},
         {"melt_pool_width", "m", "greatest width across the track of what is above the melting temperature"},
         {"melt_pool_depth", "m", "greatest depth below the plate of what is above the melting temperature"},
         {"melt_pool_length", "m", "greatest length along the track of what is above the melting temperature"},
         {"bead_height", "m", "height above the plate of what was molten"},
-        {"fused_area", "m^2", "cross-section across the track of what was ever above the melting temperature"}};
+        {"fused_width", "m", "width of the cross-section that was ever above the melting temperature"},
+        {"fused_depth", "m", "depth below the plate of that cross-section"},
+        {"fused_height", "m", "height above the plate of that cross-section"},
+        {"fused_area", "m^2", "area of that cross-section"},
+        {"volume_change", "1", "change of the bodies' volume over their volume at the start"},
+        {"enclosed_volume_change", "1", "change of the volume inside the interface over that at the start"},
+        {"laser_absorbed_error", "1", "laser energy absorbed against absorptivity times what hits"},
+        {"energy_closure", "1", "what the energy ledger misses over what went in"},
+        {"mass_closure", "1", "what the mass ledger misses"},
+        {"volume_closure", "1", "what the volume ledger misses"}};
     return declarations;
 }
 
-}  // namespace cupel
+} // namespace cupel

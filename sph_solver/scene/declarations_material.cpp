@@ -9,7 +9,8 @@ Table material_declaration()
 {
     return {
         "material",
-        "a material of a body or of the surrounding; `use = \"304L\"` takes materials/304L.toml, keys beside it override it",
+        "a material of a body or of the surrounding; `use = \"304L\"` takes materials/304L.toml, keys beside it "
+        "override it",
         Table::Occurrence::named,
         true,
         false,
@@ -19,7 +20,9 @@ Table material_declaration()
          quantity("specific_heat", "J/(kg K)", "specific heat of the liquid or gas").above(0),
          quantity("specific_heat_solid", "J/(kg K)", "specific heat of the solid").above(0).derived("specific_heat"),
          quantity("conductivity", "W/(m K)", "thermal conductivity of the liquid or gas").at_least(0),
-         quantity("conductivity_solid", "W/(m K)", "thermal conductivity of the solid").at_least(0).derived("conductivity"),
+         quantity("conductivity_solid", "W/(m K)", "thermal conductivity of the solid")
+             .at_least(0)
+             .derived("conductivity"),
          quantity("solidus", "K", "temperature at which melting begins").above(0),
          quantity("liquidus", "K", "temperature at which melting is complete").above(0),
          quantity("melting_temperature", "K", "isotherm that bounds the melt pool in the measures")
@@ -42,4 +45,4 @@ Table material_declaration()
          quantity("absorptivity", "1", "share of the laser's light that the surface absorbs").at_least(0).at_most(1)}};
 }
 
-}  // namespace cupel
+} // namespace cupel

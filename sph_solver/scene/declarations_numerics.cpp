@@ -8,19 +8,20 @@ namespace
 
 Table openfoam_declaration()
 {
-    return {"openfoam",
-            "choices of the OpenFOAM reference; what is absent is the reference's own default",
-            Table::Occurrence::once,
-            false,
-            false,
-            {quantity("max_courant", "1", "greatest Courant number").above(0).at_most(1),
-             quantity("max_alpha_courant", "1", "greatest Courant number at the interface").above(0).at_most(1),
-             plain("curvature_smoothing", Type::integer, "passes that smooth the fraction before its curvature is taken")
-                 .at_least(0)
-                 .at_most(20)}};
+    return {
+        "openfoam",
+        "choices of the OpenFOAM reference; what is absent is the reference's own default",
+        Table::Occurrence::once,
+        false,
+        false,
+        {quantity("max_courant", "1", "greatest Courant number").above(0).at_most(1),
+         quantity("max_alpha_courant", "1", "greatest Courant number at the interface").above(0).at_most(1),
+         plain("curvature_smoothing", Type::integer, "passes that smooth the fraction before its curvature is taken")
+             .at_least(0)
+             .at_most(20)}};
 }
 
-}  // namespace
+} // namespace
 
 Table numerics_declaration()
 {
@@ -30,7 +31,8 @@ Table numerics_declaration()
         Table::Occurrence::once,
         false,
         true,
-        {choice("formulation", {"default", "paper"}, "set of SPH remedies: Cupel's own, or the paper's").or_else("default"),
+        {choice("formulation", {"default", "paper"}, "set of SPH remedies: Cupel's own, or the paper's")
+             .or_else("default"),
          choice("kernel", {"quintic_spline", "wendland_c2"}, "smoothing kernel").or_else("quintic_spline"),
          quantity("smoothing_ratio", "1", "smoothing length over particle spacing")
              .at_least(0.8)
@@ -81,9 +83,14 @@ Table numerics_declaration()
              .above(0)
              .at_most(10)
              .or_else(1.0),
-         choice("precision", {"double", "float"}, "arithmetic of pairs; positions are in double always").or_else("double"),
-         quantity("skin", "1", "extra radius of the neighbour lists over particle spacing").at_least(0).at_most(2).or_else(0.3),
-         plain("only_what_moves", Type::boolean, "momentum of molten material and a shell around it only").or_else(true),
+         choice("precision", {"double", "float"}, "arithmetic of pairs; positions are in double always")
+             .or_else("double"),
+         quantity("skin", "1", "extra radius of the neighbour lists over particle spacing")
+             .at_least(0)
+             .at_most(2)
+             .or_else(0.3),
+         plain("only_what_moves", Type::boolean, "momentum of molten material and a shell around it only")
+             .or_else(true),
          quantity("background_pressure_factor", "1", "background pressure of two-phase runs over rho c^2")
              .at_least(0)
              .at_most(1)
@@ -91,4 +98,4 @@ Table numerics_declaration()
         {openfoam_declaration()}};
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -30,7 +30,7 @@ Table contact(const std::string& key, const std::string& help)
              quantity("restitution", "1", "coefficient of restitution").above(0).at_most(1).must()}};
 }
 
-}  // namespace
+} // namespace
 
 Table powder_declaration()
 {
@@ -49,11 +49,14 @@ Table powder_declaration()
               {quantity("median", "m", "median diameter before the cut").above(0).must(),
                quantity("minimum", "m", "smallest diameter").above(0).must(),
                quantity("maximum", "m", "greatest diameter").above(0).must(),
-               quantity("spread", "1", "standard deviation of the diameter's natural logarithm").above(0).at_most(2).must()}},
+               quantity("spread", "1", "standard deviation of the diameter's natural logarithm")
+                   .above(0)
+                   .at_most(2)
+                   .must()}},
              elastic("grain", "a grain's material in the discrete element method"),
              elastic("plate", "the plate's material in the discrete element method"),
              contact("grain_contact", "contact of two grains"),
              contact("plate_contact", "contact of a grain and the plate")}};
 }
 
-}  // namespace cupel
+} // namespace cupel

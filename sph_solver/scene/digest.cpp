@@ -18,8 +18,7 @@ std::string sha256(std::string_view bytes)
         throw std::runtime_error("sha256: the system's OpenSSL refuses it; check its configuration");
     static constexpr const char* digits = "0123456789abcdef";
     std::string text;
-    for (unsigned int index = 0; index < length; ++index)
-    {
+    for (unsigned int index = 0; index < length; ++index) {
         text += digits[digest[index] >> 4];
         text += digits[digest[index] & 15];
     }
@@ -35,4 +34,4 @@ std::string sha256_of_file(const std::string& path)
     return sha256(content.str());
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -13,4 +13,4 @@ std::string sha256(std::string_view bytes);
 /// The same of a file's content. Throws CaseError when it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
-}  // namespace cupel
+} // namespace cupel

@@ -31,39 +31,32 @@ Node converted(const toml::node& source, const File& file, const Position& fallb
     Node node;
     node.position = source.source().begin ? position_of(file, source.source()) : fallback;
     node.key_position = node.position;
-    if (const auto* table = source.as_table())
-    {
-        for (const auto& [key, value] : *table)
-        {
+    if (const auto* table = source.as_table()) {
+        for (const auto& [key, value] : *table) {
             const Position key_position = position_of(file, key.source());
             Node member = converted(value, file, key_position);
             member.key_position = key_position;
             node.members.emplace(std::string(key.str()), std::move(member));
         }
     }
-    else if (const auto* array = source.as_array())
-    {
+    else if (const auto* array = source.as_array()) {
         node.kind = Node::Kind::array;
         for (const toml::node& item : *array)
             node.items.push_back(converted(item, file, node.position));
     }
-    else if (const auto* text = source.as_string())
-    {
+    else if (const auto* text = source.as_string()) {
         node.kind = Node::Kind::text;
         node.text = text->get();
     }
-    else if (const auto* integer = source.as_integer())
-    {
+    else if (const auto* integer = source.as_integer()) {
         node.kind = Node::Kind::integer;
         node.integer = integer->get();
     }
-    else if (const auto* number = source.as_floating_point())
-    {
+    else if (const auto* number = source.as_floating_point()) {
         node.kind = Node::Kind::number;
         node.number = number->get();
     }
-    else if (const auto* boolean = source.as_boolean())
-    {
+    else if (const auto* boolean = source.as_boolean()) {
         node.kind = Node::Kind::boolean;
         node.boolean = boolean->get();
     }
@@ -74,12 +67,10 @@ Node converted(const toml::node& source, const File& file, const Position& fallb
 
 Node parse_toml(const std::string& content, const File& file)
 {
-    try
-    {
+    try {
         return converted(toml::parse(content, *file), file, {file, 1, 1});
     }
-    catch (const toml::parse_error& error)
-    {
+    catch (const toml::parse_error& error) {
         refuse(position_of(file, error.source()), "TOML", std::string(error.description()),
                "correct the file's syntax at this place");
     }
@@ -89,8 +80,7 @@ Node parse_toml(const std::string& content, const File& file)
 std::optional<Node> take_text(Node& table, const std::string& key, const std::string& full_key)
 {
     const auto found = table.members.find(key);
-    if (found == table.members.end())
-        return std::nullopt;
+    if (found == table.members.end()) return std::nullopt;
     Node value = std::move(found->second);
     table.members.erase(found);
     if (!value.is(Node::Kind::text))
@@ -102,14 +92,14 @@ Node read_with_base(const std::string& path, std::vector<std::string> chain)
 {
     Node document = read_toml(path);
     const auto base = take_text(document, "base", "base");
-    if (!base)
-        return document;
+    if (!base) return document;
     const std::string base_path = (fs::path(path).parent_path() / base->text).lexically_normal().string();
     chain.push_back(fs::path(path).lexically_normal().string());
     if (std::find(chain.begin(), chain.end(), base_path) != chain.end())
         refuse(base->position, "base", "the files lie on each other in a circle", "take this line out");
     if (!fs::is_regular_file(base_path))
-        refuse(base->position, "base", "there is no file " + base_path, "correct the path, which is relative to this file");
+        refuse(base->position, "base", "there is no file " + base_path,
+               "correct the path, which is relative to this file");
     Node merged = read_with_base(base_path, std::move(chain));
     merge(merged, std::move(document));
     return merged;
@@ -120,12 +110,9 @@ std::vector<fs::path> material_folders(const std::string& file)
 {
     std::vector<fs::path> folders;
     std::error_code ignored;
-    for (fs::path folder = fs::absolute(file, ignored).parent_path();; folder = folder.parent_path())
-    {
-        if (fs::is_directory(folder / "materials", ignored))
-            folders.push_back(folder / "materials");
-        if (folder == folder.parent_path())
-            break;
+    for (fs::path folder = fs::absolute(file, ignored).parent_path();; folder = folder.parent_path()) {
+        if (fs::is_directory(folder / "materials", ignored)) folders.push_back(folder / "materials");
+        if (folder == folder.parent_path()) break;
     }
     folders.emplace_back(CUPEL_MATERIALS_FOLDER);
     return folders;
@@ -134,42 +121,35 @@ std::vector<fs::path> material_folders(const std::string& file)
 void use_material(Node& material, const std::string& key)
 {
     const auto use = take_text(material, "use", key + ".use");
-    if (!use)
-        return;
+    if (!use) return;
     std::vector<std::string> known;
     std::error_code ignored;
-    for (const fs::path& folder : material_folders(*use->position.file))
-    {
+    for (const fs::path& folder : material_folders(*use->position.file)) {
         const fs::path candidate = folder / (use->text + ".toml");
-        if (fs::is_regular_file(candidate, ignored))
-        {
+        if (fs::is_regular_file(candidate, ignored)) {
             Node merged = read_toml(candidate.lexically_proximate(fs::current_path(ignored)).string());
             merge(merged, std::move(material));
             material = std::move(merged);
             return;
         }
         for (const auto& entry : fs::directory_iterator(folder, ignored))
-            if (entry.path().extension() == ".toml")
-                known.push_back(entry.path().stem().string());
+            if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
     }
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
     refuse(use->position, key + ".use", "there is no material file '" + use->text + ".toml'",
-           "take one of " + joined(known) + ", or add the file to a folder materials/" +
-               suggestion(use->text, known));
+           "take one of " + joined(known) + ", or add the file to a folder materials/" + suggestion(use->text, known));
 }
 
 /// A value as TOML writes it, or else the plain text that a shell has stripped of its quotes.
 Node override_value(const std::string& text, const Position& position)
 {
     Node node;
-    try
-    {
+    try {
         const toml::table parsed = toml::parse("value = " + text + "\n", *position.file);
         node = converted(*parsed.get("value"), position.file, position);
     }
-    catch (const toml::parse_error&)
-    {
+    catch (const toml::parse_error&) {
         node.kind = Node::Kind::text;
         node.text = text;
     }
@@ -197,32 +177,29 @@ void apply_override(Node& document, const std::string& text, unsigned number)
 
     std::istringstream path(text.substr(0, equals));
     Node* target = &document;
-    for (std::string part; std::getline(path, part, '.');)
-    {
-        if (target->is(Node::Kind::array))
-        {
+    for (std::string part; std::getline(path, part, '.');) {
+        if (target->is(Node::Kind::array)) {
             std::size_t index = 0;
             const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), index);
             if (problem != std::errc{} || end != part.data() + part.size() || index >= target->items.size())
-                refuse(position, text.substr(0, equals), "'" + part + "' is no place in a list of " +
-                           std::to_string(target->items.size()), "count from 0");
+                refuse(position, text.substr(0, equals),
+                       "'" + part + "' is no place in a list of " + std::to_string(target->items.size()),
+                       "count from 0");
             target = &target->items[index];
             continue;
         }
-        if (!target->is(Node::Kind::table))
-        {
+        if (!target->is(Node::Kind::table)) {
             *target = Node{};
             place(*target, position);
         }
         const auto [found, fresh] = target->members.try_emplace(part);
         target = &found->second;
-        if (fresh)
-            place(*target, position);
+        if (fresh) place(*target, position);
     }
     *target = std::move(value);
 }
 
-}  // namespace
+} // namespace
 
 std::string position_text(const Position& position)
 {
@@ -232,7 +209,10 @@ std::string position_text(const Position& position)
 
 void refuse(const Position& position, const std::string& key, const std::string& what, const std::string& remedy)
 {
-    throw CaseError(position_text(position) + ": " + key + ": " + what + "; " + remedy);
+    std::string line = position_text(position) + ": " + key + ": " + what + "; " + remedy;
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char character) { return character < ' '; }, ' ');
+    throw CaseError(line);
 }
 
 const Node* Node::find(const std::string& key) const
@@ -243,8 +223,7 @@ const Node* Node::find(const std::string& key) const
 
 std::string kind_text(const Node& node)
 {
-    switch (node.kind)
-    {
+    switch (node.kind) {
     case Node::Kind::table:
         return "a table";
     case Node::Kind::array:
@@ -266,21 +245,20 @@ Node read_toml(const std::string& path)
     std::ifstream stream(path, std::ios::binary);
     std::ostringstream content;
     if (!stream || !(content << stream.rdbuf()))
-        refuse({file, 1, 1}, "file", "cannot be read or is empty", "check that it exists, is not empty and that you may read it");
+        refuse({file, 1, 1}, "file", "cannot be read or is empty",
+               "check that it exists, is not empty and that you may read it");
     return parse_toml(content.str(), file);
 }
 
 void merge(Node& under, Node over)
 {
-    if (!under.is(Node::Kind::table) || !over.is(Node::Kind::table))
-    {
+    if (!under.is(Node::Kind::table) || !over.is(Node::Kind::table)) {
         under = std::move(over);
         return;
     }
     under.key_position = over.key_position;
     under.position = over.position;
-    for (auto& [key, member] : over.members)
-    {
+    for (auto& [key, member] : over.members) {
         const auto [found, fresh] = under.members.try_emplace(key);
         if (fresh)
             found->second = std::move(member);
@@ -297,9 +275,8 @@ Node read_document(const std::string& path, const std::vector<std::string>& over
     const auto materials = document.members.find("material");
     if (materials != document.members.end() && materials->second.is(Node::Kind::table))
         for (auto& [name, material] : materials->second.members)
-            if (material.is(Node::Kind::table))
-                use_material(material, "material." + name);
+            if (material.is(Node::Kind::table)) use_material(material, "material." + name);
     return document;
 }
 
-}  // namespace cupel
+} // namespace cupel

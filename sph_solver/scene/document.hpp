@@ -31,19 +31,11 @@ std::string position_text(const Position& position);
 /// A value of a TOML file.
 struct Node
 {
-    enum class Kind
-    {
-        table,
-        array,
-        text,
-        integer,
-        number,
-        boolean
-    };
+    enum class Kind { table, array, text, integer, number, boolean };
 
     Kind kind = Kind::table;
-    Position key_position;  ///< of the key that names it; of the value where it has none
-    Position position;      ///< of the value
+    Position key_position; ///< of the key that names it; of the value where it has none
+    Position position;     ///< of the value
     std::map<std::string, Node> members;
     std::vector<Node> items;
     std::string text;
@@ -71,4 +63,4 @@ void merge(Node& under, Node over);
 /// `use` taken from the materials folder. The keys `base` and `use` are consumed. Throws CaseError.
 Node read_document(const std::string& path, const std::vector<std::string>& overrides);
 
-}  // namespace cupel
+} // namespace cupel

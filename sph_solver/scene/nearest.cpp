@@ -15,16 +15,13 @@ std::size_t edit_distance(std::string_view one, std::string_view other)
         at(row, 0) = row;
     for (std::size_t column = 0; column < columns; ++column)
         at(0, column) = column;
-    for (std::size_t row = 1; row < rows; ++row)
-    {
-        for (std::size_t column = 1; column < columns; ++column)
-        {
+    for (std::size_t row = 1; row < rows; ++row) {
+        for (std::size_t column = 1; column < columns; ++column) {
             const std::size_t replaced = at(row - 1, column - 1) + (one[row - 1] == other[column - 1] ? 0 : 1);
             at(row, column) = std::min({replaced, at(row - 1, column) + 1, at(row, column - 1) + 1});
-            const bool swapped = row > 1 && column > 1 && one[row - 1] == other[column - 2] &&
-                                 one[row - 2] == other[column - 1];
-            if (swapped)
-                at(row, column) = std::min(at(row, column), at(row - 2, column - 2) + 1);
+            const bool swapped =
+                row > 1 && column > 1 && one[row - 1] == other[column - 2] && one[row - 2] == other[column - 1];
+            if (swapped) at(row, column) = std::min(at(row, column), at(row - 2, column - 2) + 1);
         }
     }
     return at(rows - 1, columns - 1);
@@ -34,8 +31,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 {
     std::string best;
     std::size_t best_distance = 0;
-    for (const std::string& candidate : known)
-    {
+    for (const std::string& candidate : known) {
         const std::size_t distance = edit_distance(name, candidate);
         const std::size_t allowed = std::max<std::size_t>(1, std::max(candidate.size(), name.size()) / 3);
         if (distance <= allowed && distance < std::max(candidate.size(), name.size()) &&
@@ -62,4 +58,4 @@ std::string joined(const std::vector<std::string>& names)
     return text;
 }
 
-}  // namespace cupel
+} // namespace cupel

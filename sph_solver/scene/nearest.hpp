@@ -21,4 +21,4 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names);
 
-}  // namespace cupel
+} // namespace cupel

@@ -28,4 +28,4 @@ bool is_physics(std::string_view name)
     return std::any_of(all.begin(), all.end(), [name](const auto& physics) { return physics.name == name; });
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -14,7 +14,7 @@ inline constexpr int resolved_schema_version = 1;
 struct PhysicsDeclaration
 {
     std::string name;
-    std::vector<std::string> needs;  ///< physics without which this one has no meaning
+    std::vector<std::string> needs; ///< physics without which this one has no meaning
     std::string help;
 };
 
@@ -23,4 +23,4 @@ const std::vector<PhysicsDeclaration>& physics_declarations();
 
 bool is_physics(std::string_view name);
 
-}  // namespace cupel
+} // namespace cupel

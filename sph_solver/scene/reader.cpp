@@ -1,11 +1,10 @@
 #include "scene/reader.hpp"
 
+#include "scene/convert.hpp"
 #include "scene/nearest.hpp"
-#include "scene/units.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
+#include <cctype>
 #include <sstream>
 
 namespace cupel
@@ -15,27 +14,6 @@ namespace
 {
 
 using nlohmann::json;
-
-std::string below(const std::string& path, const std::string& key)
-{
-    return path.empty() ? key : path + "." + key;
-}
-
-std::string number_text(double value)
-{
-    return json(value).dump();
-}
-
-std::string with_unit(double value, const std::string& unit)
-{
-    return number_text(value) + (unit == "1" ? "" : " " + unit);
-}
-
-std::string expected(const std::string& unit)
-{
-    return unit == "1" ? "write a plain number or a percentage, such as 0.1 or \"10 %\""
-                       : "write a number with a unit of the kind " + unit + ", such as \"1 " + unit + "\"";
-}
 
 std::vector<std::string> keys_of(const Table& table)
 {
@@ -47,18 +25,11 @@ std::vector<std::string> keys_of(const Table& table)
     return keys;
 }
 
-void require_kind(const Node& node, Node::Kind kind, const std::string& path, const std::string& remedy)
-{
-    if (!node.is(kind))
-        refuse(node.position, path, "is " + kind_text(node), remedy);
-}
-
 void check_keys(const Table& table, const Node& node, const std::string& path);
 
 void check_keys_by_occurrence(const Table& table, const Node& node, const std::string& path)
 {
-    switch (table.occurrence)
-    {
+    switch (table.occurrence) {
     case Table::Occurrence::once:
         check_keys(table, node, path);
         break;
@@ -79,17 +50,14 @@ void check_keys(const Table& table, const Node& node, const std::string& path)
 {
     require_kind(node, Node::Kind::table, path, "write it as a table [" + path + "]");
     const std::vector<std::string> known = keys_of(table);
-    for (const auto& [key, member] : node.members)
-    {
-        if (std::find(known.begin(), known.end(), key) == known.end())
-        {
+    for (const auto& [key, member] : node.members) {
+        if (std::find(known.begin(), known.end(), key) == known.end()) {
             const std::string near = suggestion(key, known);
             refuse(member.key_position, below(path, key), "unknown key",
                    near.empty() ? "take it out or use one of: " + joined(known) : "correct it" + near);
         }
         for (const Table& inner : table.tables)
-            if (inner.key == key)
-                check_keys_by_occurrence(inner, member, below(path, key));
+            if (inner.key == key) check_keys_by_occurrence(inner, member, below(path, key));
     }
 }
 
@@ -109,13 +77,10 @@ public:
     json read_table(const Table& table, const Node& node, const std::string& path)
     {
         json values = json::object();
-        for (const Parameter& parameter : table.parameters)
-        {
-            if (applies(parameter, node, values, path))
-                read_parameter(parameter, node, path, values);
+        for (const Parameter& parameter : table.parameters) {
+            if (applies(parameter, node, values, path)) read_parameter(parameter, node, path, values);
         }
-        for (const Table& inner : table.tables)
-        {
+        for (const Table& inner : table.tables) {
             const Node* found = node.find(inner.key);
             if (found)
                 values[inner.key] = read_occurrences(inner, *found, below(path, inner.key));
@@ -130,8 +95,7 @@ public:
 private:
     json read_occurrences(const Table& table, const Node& node, const std::string& path)
     {
-        if (table.occurrence == Table::Occurrence::once)
-            return read_table(table, node, path);
+        if (table.occurrence == Table::Occurrence::once) return read_table(table, node, path);
         json values = table.occurrence == Table::Occurrence::named ? json::object() : json::array();
         for (const auto& [name, member] : node.members)
             values[name] = read_table(table, member, below(path, name));
@@ -142,12 +106,10 @@ private:
 
     static bool applies(const Parameter& parameter, const Node& node, const json& values, const std::string& path)
     {
-        if (parameter.only_with.empty() || !values.contains(parameter.only_with))
-            return true;
+        if (parameter.only_with.empty() || !values.contains(parameter.only_with)) return true;
         const std::string deciding = values.at(parameter.only_with);
         const auto& allowed = parameter.only_values;
-        if (std::find(allowed.begin(), allowed.end(), deciding) != allowed.end())
-            return true;
+        if (std::find(allowed.begin(), allowed.end(), deciding) != allowed.end()) return true;
         if (const Node* found = node.find(parameter.key))
             refuse(found->key_position, below(path, parameter.key),
                    "has no meaning with " + parameter.only_with + " = \"" + deciding + "\"",
@@ -159,10 +121,10 @@ private:
     {
         const std::string full_key = below(path, parameter.key);
         const Node* node = table.find(parameter.key);
-        if (!node)
-        {
+        if (!node) {
             if (parameter.required)
-                refuse(table.position, full_key, "is missing", "add it: " + parameter.help + ", " + hint(parameter));
+                refuse(table.position, full_key, "is missing",
+                       "add it: " + parameter.help + ", " + value_hint(parameter));
             const bool paper = parameter.paper_fallback && values.value("formulation", "") == "paper";
             if (paper)
                 values[parameter.key] = *parameter.paper_fallback;
@@ -173,7 +135,7 @@ private:
         if (node->is(Node::Kind::table))
             values[parameter.key] = annotated(parameter, *node, full_key);
         else
-            values[parameter.key] = convert(parameter, *node, full_key);
+            values[parameter.key] = convert_value(parameter, *node, full_key);
     }
 
     /// { value = ..., assumed = "reason" } or { value = ..., source = "where from" }.
@@ -183,17 +145,15 @@ private:
         for (const auto& [key, member] : node.members)
             if (std::find(known.begin(), known.end(), key) == known.end())
                 refuse(member.key_position, below(path, key), "unknown key",
-                       "a value with a note is { value = ..., assumed = \"reason\" } or { value = ..., source = \"...\" }" +
+                       "a value with a note is { value = ..., assumed = \"reason\" } or { value = ..., source = "
+                       "\"...\" }" +
                            suggestion(key, known));
         const Node* value = node.find("value");
-        if (!value)
-            refuse(node.position, path, "has no value", "write { value = ..., assumed = \"reason\" }");
-        const json converted = convert(parameter, *value, path);
-        for (const char* note : {"assumed", "source"})
-        {
+        if (!value) refuse(node.position, path, "has no value", "write { value = ..., assumed = \"reason\" }");
+        const json converted = convert_value(parameter, *value, path);
+        for (const char* note : {"assumed", "source"}) {
             const Node* text = node.find(note);
-            if (!text)
-                continue;
+            if (!text) continue;
             require_kind(*text, Node::Kind::text, below(path, note), "write the reason as a text in quotes");
             if (std::string(note) == "assumed")
                 reading.assumed.push_back(
@@ -203,201 +163,9 @@ private:
         }
         return converted;
     }
-
-    static std::string hint(const Parameter& parameter)
-    {
-        switch (parameter.type)
-        {
-        case Type::quantity:
-            return parameter.unit == "1" ? "a plain number" : "such as \"1 " + parameter.unit + "\"";
-        case Type::vector:
-            return "a list of " + std::to_string(parameter.components) + " such as \"1 " + parameter.unit + "\"";
-        case Type::choice:
-        case Type::choice_list:
-            return "of " + joined(parameter.choices);
-        case Type::integer:
-            return "a whole number";
-        case Type::boolean:
-            return "true or false";
-        case Type::strength:
-            return "true, false or a number";
-        case Type::text:
-        case Type::file:
-            return "a text in quotes";
-        case Type::text_list:
-            return "a list of texts";
-        case Type::time_window:
-            return "such as [\"1 ms\", \"end\"]";
-        case Type::any_quantity:
-            return "a number with its unit";
-        }
-        return "";
-    }
-
-    static json convert(const Parameter& parameter, const Node& node, const std::string& path)
-    {
-        switch (parameter.type)
-        {
-        case Type::quantity:
-            return bounded(parameter, number(node, parameter.unit, path), node, path);
-        case Type::vector:
-            return vector_of(parameter, node, path);
-        case Type::integer:
-            require_kind(node, Node::Kind::integer, path, "write a whole number without quotes");
-            return bounded(parameter, node.integer, node, path);
-        case Type::boolean:
-            require_kind(node, Node::Kind::boolean, path, "write true or false without quotes");
-            return node.boolean;
-        case Type::strength:
-            if (node.is(Node::Kind::boolean))
-                return node.boolean ? 1.0 : 0.0;
-            if (!node.is_numeric())
-                refuse(node.position, path, "is " + kind_text(node), "write true, false or a number");
-            return bounded(parameter, node.numeric(), node, path);
-        case Type::text:
-            require_kind(node, Node::Kind::text, path, "write a text in quotes");
-            return node.text;
-        case Type::text_list:
-            return list(node, path, [&](const Node& item, const std::string& key) {
-                require_kind(item, Node::Kind::text, key, "write a text in quotes");
-                return json(item.text);
-            });
-        case Type::choice:
-            return chosen(parameter, node, path);
-        case Type::choice_list:
-            return choices(parameter, node, path);
-        case Type::file:
-            require_kind(node, Node::Kind::text, path, "write a path in quotes");
-            return absolute_path(node);
-        case Type::time_window:
-            return time_window(node, path);
-        case Type::any_quantity:
-            return any_quantity(node, path);
-        }
-        return nullptr;
-    }
-
-    template <typename Convert> static json list(const Node& node, const std::string& path, Convert convert_item)
-    {
-        require_kind(node, Node::Kind::array, path, "write a list in square brackets");
-        json values = json::array();
-        for (std::size_t index = 0; index < node.items.size(); ++index)
-            values.push_back(convert_item(node.items[index], below(path, std::to_string(index))));
-        return values;
-    }
-
-    static Quantity parsed(const Node& node, const std::string& unit, const std::string& path)
-    {
-        if (node.is_numeric())
-            return {node.numeric(), {}};
-        if (!node.is(Node::Kind::text))
-            refuse(node.position, path, "is " + kind_text(node), expected(unit));
-        try
-        {
-            return parse_quantity(node.text);
-        }
-        catch (const UnitError& error)
-        {
-            refuse(node.position, path, error.what(), expected(unit));
-        }
-    }
-
-    static double number(const Node& node, const std::string& unit, const std::string& path)
-    {
-        const Quantity quantity = parsed(node, unit, path);
-        const Dimension wanted = parse_unit(unit).dimension;
-        if (quantity.dimension != wanted)
-            refuse(node.position, path,
-                   quantity.dimension.none() ? "has no unit"
-                                             : "has the unit " + dimension_text(quantity.dimension) + " instead of " +
-                                                   dimension_text(wanted),
-                   expected(unit));
-        if (!std::isfinite(quantity.value))
-            refuse(node.position, path, "is not a finite number", expected(unit));
-        return quantity.value;
-    }
-
-    template <typename Number>
-    static json bounded(const Parameter& parameter, Number value, const Node& node, const std::string& path)
-    {
-        const Bounds& bounds = parameter.bounds;
-        const double amount = static_cast<double>(value);
-        const auto out = [&](const std::string& rule, double limit) {
-            refuse(node.position, path, "is " + with_unit(amount, parameter.unit),
-                   "it must be " + rule + " " + with_unit(limit, parameter.unit));
-        };
-        if (!std::isfinite(amount))
-            refuse(node.position, path, "is not a finite number", expected(parameter.unit));
-        if (bounds.above && !(amount > *bounds.above))
-            out("above", *bounds.above);
-        if (bounds.at_least && !(amount >= *bounds.at_least))
-            out("at least", *bounds.at_least);
-        if (bounds.below && !(amount < *bounds.below))
-            out("below", *bounds.below);
-        if (bounds.at_most && !(amount <= *bounds.at_most))
-            out("at most", *bounds.at_most);
-        return value;
-    }
-
-    static json vector_of(const Parameter& parameter, const Node& node, const std::string& path)
-    {
-        const json values = list(node, path, [&](const Node& item, const std::string& key) {
-            return bounded(parameter, number(item, parameter.unit, key), item, key);
-        });
-        if (values.size() != parameter.components)
-            refuse(node.position, path, "has " + std::to_string(values.size()) + " components",
-                   "write " + std::to_string(parameter.components));
-        return values;
-    }
-
-    static json chosen(const Parameter& parameter, const Node& node, const std::string& path)
-    {
-        require_kind(node, Node::Kind::text, path, "write one of: " + joined(parameter.choices));
-        if (std::find(parameter.choices.begin(), parameter.choices.end(), node.text) == parameter.choices.end())
-            refuse(node.position, path, "there is no '" + node.text + "'",
-                   "take one of: " + joined(parameter.choices) + suggestion(node.text, parameter.choices));
-        return node.text;
-    }
-
-    static json choices(const Parameter& parameter, const Node& node, const std::string& path)
-    {
-        json values = list(node, path, [&](const Node& item, const std::string&) { return chosen(parameter, item, path); });
-        for (std::size_t index = 0; index < values.size(); ++index)
-            if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index), values[index]) !=
-                values.begin() + static_cast<std::ptrdiff_t>(index))
-                refuse(node.items[index].position, path, "'" + node.items[index].text + "' stands there twice",
-                       "take one out");
-        return values;
-    }
-
-    static json absolute_path(const Node& node)
-    {
-        namespace fs = std::filesystem;
-        const fs::path folder = fs::path(*node.position.file).parent_path();
-        return fs::absolute(folder / node.text).lexically_normal().string();
-    }
-
-    static json time_window(const Node& node, const std::string& path)
-    {
-        const json values = list(node, path, [&](const Node& item, const std::string& key) {
-            const double time = item.is(Node::Kind::text) && item.text == "end" ? -1.0 : number(item, "s", key);
-            if (time < 0 && !(item.is(Node::Kind::text) && item.text == "end"))
-                refuse(item.position, key, "is before the start", "write a time from 0 s on, or \"end\"");
-            return time < 0 ? json("end") : json(time);
-        });
-        if (values.size() != 2 || values[0] == "end")
-            refuse(node.position, path, "is no pair of times", "write for example [\"1 ms\", \"end\"]");
-        return values;
-    }
-
-    static json any_quantity(const Node& node, const std::string& path)
-    {
-        const Quantity quantity = parsed(node, "1", path);
-        return {{"value", quantity.value}, {"dimension", quantity.dimension.exponents}};
-    }
 };
 
-}  // namespace
+} // namespace
 
 Reading read_declared(const Table& declaration, const Node& document)
 {
@@ -407,33 +175,21 @@ Reading read_declared(const Table& declaration, const Node& document)
     return reader.reading;
 }
 
-double value_in_unit(const json& any_quantity, const std::string& unit, const Node& node, const std::string& key)
-{
-    const Dimension dimension{any_quantity.at("dimension").get<std::array<int, 6>>()};
-    if (dimension != parse_unit(unit).dimension)
-        refuse(node.position, key,
-               dimension.none() ? "has no unit" : "has the unit " + dimension_text(dimension) + " instead of " + unit,
-               expected(unit));
-    return any_quantity.at("value");
-}
-
 const Node& node_at(const Node& document, const std::string& path)
 {
     const Node* node = &document;
     std::istringstream parts(path);
-    for (std::string part; std::getline(parts, part, '.');)
-    {
+    for (std::string part; std::getline(parts, part, '.');) {
         const Node* next = nullptr;
         if (node->is(Node::Kind::table))
             next = node->find(part);
         else if (node->is(Node::Kind::array) && std::all_of(part.begin(), part.end(), ::isdigit) &&
                  std::stoul(part) < node->items.size())
             next = &node->items[std::stoul(part)];
-        if (!next)
-            break;
+        if (!next) break;
         node = next;
     }
     return *node;
 }
 
-}  // namespace cupel
+} // namespace cupel

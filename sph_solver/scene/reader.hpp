@@ -13,20 +13,15 @@ namespace cupel
 /// What a case file gives once it is read: the same layout as the file, all SI.
 struct Reading
 {
-    nlohmann::json values;   ///< tables as objects; absent tables and absent optional keys are absent
-    nlohmann::json assumed;  ///< list of {key, value, unit, reason}
-    nlohmann::json sources;  ///< list of {key, source}
+    nlohmann::json values;  ///< tables as objects; absent tables and absent optional keys are absent
+    nlohmann::json assumed; ///< list of {key, value, unit, reason}
+    nlohmann::json sources; ///< list of {key, source}
 };
 
 /// Throws CaseError with position, key, what is wrong and what to do. Unknown keys are refused before all else.
 Reading read_declared(const Table& declaration, const Node& document);
 
-/// A value of Type::any_quantity as read: {"value", "dimension", "text"}; converted once its unit is known.
-/// Throws CaseError where its dimension is not that of `unit`.
-double value_in_unit(const nlohmann::json& any_quantity, const std::string& unit, const Node& node,
-                     const std::string& key);
-
 /// The node at "time.end" or "body.0.radius", or the nearest one above it that exists.
 const Node& node_at(const Node& document, const std::string& path);
 
-}  // namespace cupel
+} // namespace cupel

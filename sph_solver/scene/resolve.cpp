@@ -1,5 +1,6 @@
 #include "scene/resolve.hpp"
 
+#include "scene/convert.hpp"
 #include "scene/declaration.hpp"
 #include "scene/digest.hpp"
 #include "scene/nearest.hpp"
@@ -31,8 +32,7 @@ json ordered_physics(const json& values)
 {
     json ordered = json::array();
     for (const PhysicsDeclaration& physics : physics_declarations())
-        if (names_physics(values, physics.name))
-            ordered.push_back(physics.name);
+        if (names_physics(values, physics.name)) ordered.push_back(physics.name);
     return ordered;
 }
 
@@ -50,8 +50,7 @@ void check_level(const std::string& path, const json& values, const Node& docume
                         suggestion(level, known));
     std::vector<std::string> present;
     for (const std::string& name : known)
-        if (values.at("resolution").contains(name))
-            present.push_back(name);
+        if (values.at("resolution").contains(name)) present.push_back(name);
     if (!values.at("resolution").contains(level))
         refuse(node_at(document, "resolution").position, "resolution", "the case has no level '" + level + "'",
                present.empty() ? "add " + level + " = \"...\"" : "take one of: " + joined(present));
@@ -60,14 +59,11 @@ void check_level(const std::string& path, const json& values, const Node& docume
 json resolved_materials(const json& values)
 {
     json materials = values.at("material");
-    for (auto& [name, material] : materials.items())
-    {
+    for (auto& [name, material] : materials.items()) {
         const auto copy_default = [&material = material](const char* key, const char* source) {
-            if (!material.contains(key) && material.contains(source))
-                material[key] = material[source];
+            if (!material.contains(key) && material.contains(source)) material[key] = material[source];
         };
-        if (material.contains("solidus"))
-        {
+        if (material.contains("solidus")) {
             copy_default("density_solid", "density");
             copy_default("specific_heat_solid", "specific_heat");
             copy_default("conductivity_solid", "conductivity");
@@ -83,11 +79,9 @@ json resolved_materials(const json& values)
 
 json resolved_surrounding(const json& values)
 {
-    if (!values.contains("surrounding"))
-        return nullptr;
+    if (!values.contains("surrounding")) return nullptr;
     json surrounding = values.at("surrounding");
-    if (!surrounding.contains("temperature"))
-        surrounding["temperature"] = values.at("initial").at("temperature");
+    if (!surrounding.contains("temperature")) surrounding["temperature"] = values.at("initial").at("temperature");
     return surrounding;
 }
 
@@ -102,24 +96,20 @@ json resolved_domain(const json& values)
 json resolved_bodies(const json& values, const Node& document, bool require_files, const std::string& case_path)
 {
     json bodies = values.at("body");
-    for (std::size_t index = 0; index < bodies.size(); ++index)
-    {
+    for (std::size_t index = 0; index < bodies.size(); ++index) {
         json& body = bodies[index];
-        if (!body.contains("file"))
-            continue;
+        if (!body.contains("file")) continue;
         const std::string file = body.at("file");
         const bool there = fs::is_regular_file(file);
-        if (!there && require_files)
-        {
+        if (!there && require_files) {
             const std::string key = "body." + std::to_string(index) + ".file";
             refuse(node_at(document, key).position, key, "there is no bed " + file,
                    "make it with: ./cupel bed " + case_name(case_path));
         }
         body["file_hash"] = nullptr;
-        if (there)
-        {
+        if (there) {
             if (require_files)
-                static_cast<void>(read_powder_bed(file));  // refuses a broken file now rather than in the solver
+                static_cast<void>(read_powder_bed(file)); // refuses a broken file now rather than in the solver
             body["file_hash"] = sha256_of_file(file);
         }
     }
@@ -128,8 +118,7 @@ json resolved_bodies(const json& values, const Node& document, bool require_file
 
 json resolved_laser(const json& values)
 {
-    if (!names_physics(values, "laser"))
-        return nullptr;
+    if (!names_physics(values, "laser")) return nullptr;
     json laser = values.at("laser");
     laser["spot_radius"] = 0.5 * laser.at("spot_diameter").get<double>();
     laser.erase("spot_diameter");
@@ -156,14 +145,13 @@ json resolved_window(const json& between, double end, const Node& document, cons
 
 json resolved_reference(const json& measure, const std::string& unit, const Node& document, const std::string& key)
 {
-    if (!measure.contains("reference"))
-        return nullptr;
+    if (!measure.contains("reference")) return nullptr;
     json reference = measure.at("reference");
     const Node& place = node_at(document, key);
-    if (!reference.contains("kind"))
-    {
+    if (!reference.contains("kind")) {
         if (!reference.contains("solver"))
-            refuse(place.position, key + ".kind", "is missing", "say whether it is exact, tabulated, experiment or paper");
+            refuse(place.position, key + ".kind", "is missing",
+                   "say whether it is exact, tabulated, experiment or paper");
         reference["kind"] = "solver";
     }
     const bool by_solver = reference.at("kind") == "solver";
@@ -171,9 +159,9 @@ json resolved_reference(const json& measure, const std::string& unit, const Node
         refuse(place.position, key, "a reference is either a value with its kind or a solver",
                "write { kind = \"exact\", value = ..., source = ... } or { solver = \"openfoam\" }");
     reference["solver"] = member_or_null(reference, "solver");
-    reference["value"] = by_solver ? json(nullptr)
-                                   : json(value_in_unit(reference.at("value"), unit,
-                                                        node_at(document, key + ".value"), key + ".value"));
+    reference["value"] =
+        by_solver ? json(nullptr)
+                  : json(value_in_unit(reference.at("value"), unit, node_at(document, key + ".value"), key + ".value"));
     return reference;
 }
 
@@ -186,16 +174,14 @@ json resolved_measure(const json& measure, double end, const Node& document, con
                   {"reference", resolved_reference(measure, declared.unit, document, key + ".reference")},
                   {"tolerance", nullptr},
                   {"metric", member_or_null(measure, "metric")}};
-    if (!measure.contains("tolerance"))
-        return resolved;
+    if (!measure.contains("tolerance")) return resolved;
     const std::string tolerance_key = key + ".tolerance";
     const Node& place = node_at(document, tolerance_key);
     if (resolved.at("reference").is_null())
         refuse(place.position, tolerance_key, "there is no reference to judge by", "add a reference or take it out");
     const json& tolerance = measure.at("tolerance");
     const bool plain = tolerance.at("dimension") == json(std::array<int, 6>{});
-    if (resolved.at("metric").is_null())
-    {
+    if (resolved.at("metric").is_null()) {
         if (plain && declared.unit == "1")
             refuse(place.position, key + ".metric", "is missing, and the tolerance does not tell it",
                    "add metric = \"absolute\" or \"relative\"");
@@ -203,8 +189,7 @@ json resolved_measure(const json& measure, double end, const Node& document, con
     }
     const std::string unit = resolved.at("metric") == "relative" ? "1" : declared.unit;
     const double value = value_in_unit(tolerance, unit, place, tolerance_key);
-    if (!(value > 0))
-        refuse(place.position, tolerance_key, "is not above zero", "give the greatest error that passes");
+    if (!(value > 0)) refuse(place.position, tolerance_key, "is not above zero", "give the greatest error that passes");
     if (resolved.at("metric") == "relative" && resolved.at("reference").at("value") == 0.0)
         refuse(place.position, tolerance_key, "a share of a reference that is zero says nothing",
                "add metric = \"absolute\"");
@@ -215,8 +200,7 @@ json resolved_measure(const json& measure, double end, const Node& document, con
 json resolved_measures(const json& values, const Node& document)
 {
     json measures = json::array();
-    if (!values.contains("measure"))
-        return measures;
+    if (!values.contains("measure")) return measures;
     const double end = values.at("time").at("end");
     for (std::size_t index = 0; index < values.at("measure").size(); ++index)
         measures.push_back(
@@ -243,7 +227,7 @@ std::string content_hash(json resolved)
     return sha256(resolved.dump());
 }
 
-}  // namespace
+} // namespace
 
 json resolve_case(const std::string& path, const ResolveOptions& options)
 {
@@ -286,4 +270,4 @@ Case read_case(const std::string& path, const std::string& level, const std::vec
     return case_from_resolved(resolve_case(path, {level, overrides, true}));
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -13,8 +13,8 @@ namespace cupel
 struct ResolveOptions
 {
     std::string level = "coarse";
-    std::vector<std::string> overrides{};  ///< "key.path=value"
-    bool require_files = true;             ///< false: a bed that is still to be made may be missing
+    std::vector<std::string> overrides{}; ///< "key.path=value"
+    bool require_files = true;            ///< false: a bed that is still to be made may be missing
 };
 
 /// Reads, checks and resolves a case file. The same file, materials, bed, level and overrides give the same text.
@@ -25,4 +25,4 @@ nlohmann::json resolve_case(const std::string& path, const ResolveOptions& optio
 Case read_case(const std::string& path, const std::string& level = "coarse",
                const std::vector<std::string>& overrides = {});
 
-}  // namespace cupel
+} // namespace cupel

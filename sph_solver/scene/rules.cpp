@@ -31,10 +31,8 @@ void check_physics(const json& values, const Node& document)
 {
     if (values.at("physics").empty())
         refuse_at(document, "physics", "names no physics", "name at least `flow` or `heat`");
-    for (const PhysicsDeclaration& physics : physics_declarations())
-    {
-        if (!names_physics(values, physics.name))
-            continue;
+    for (const PhysicsDeclaration& physics : physics_declarations()) {
+        if (!names_physics(values, physics.name)) continue;
         for (const std::string& needed : physics.needs)
             if (!names_physics(values, needed))
                 refuse_at(document, "physics", "'" + physics.name + "' needs '" + needed + "', which is not there",
@@ -44,7 +42,8 @@ void check_physics(const json& values, const Node& document)
         refuse_at(document, "gravity", "is missing, the physics name gravity",
                   "add for example gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]");
     if (names_physics(values, "laser") && !values.contains("laser"))
-        refuse_at(document, "laser", "is missing, the physics name a laser", "add [laser] or take 'laser' out of physics");
+        refuse_at(document, "laser", "is missing, the physics name a laser",
+                  "add [laser] or take 'laser' out of physics");
     const json& gradient = values.at("initial").at("temperature_gradient");
     const bool uniform = std::all_of(gradient.begin(), gradient.end(), [](const json& part) { return part == 0.0; });
     if (names_physics(values, "marangoni") && !names_physics(values, "heat") && uniform)
@@ -64,8 +63,7 @@ void check_material_names(const json& values, const Node& document)
     };
     for (std::size_t index = 0; index < values.at("body").size(); ++index)
         check(values.at("body")[index].at("material"), "body." + std::to_string(index) + ".material");
-    if (values.contains("surrounding"))
-    {
+    if (values.contains("surrounding")) {
         const std::string name = values.at("surrounding").at("material");
         check(name, "surrounding.material");
         for (const std::string& body_material : body_materials(values))
@@ -109,18 +107,14 @@ void check_material_data(const json& values, const Node& document)
 {
     const std::vector<std::string> bodies = body_materials(values);
     std::vector<std::string> all = bodies;
-    if (values.contains("surrounding"))
-        all.push_back(values.at("surrounding").at("material"));
-    for (const Need& need : needs())
-    {
-        if (!names_physics(values, need.physics))
-            continue;
+    if (values.contains("surrounding")) all.push_back(values.at("surrounding").at("material"));
+    for (const Need& need : needs()) {
+        if (!names_physics(values, need.physics)) continue;
         for (const std::string& material : need.of_surrounding_too ? all : bodies)
             for (const char* key : need.keys)
                 require_datum(values, document, material, key, std::string("physics '") + need.physics + "'");
     }
-    for (const std::string& material : bodies)
-    {
+    for (const std::string& material : bodies) {
         const json& data = values.at("material").at(material);
         const bool varies = names_physics(values, "surface_tension") && data.contains("surface_tension_slope") &&
                             (names_physics(values, "heat") || names_physics(values, "marangoni"));
@@ -137,10 +131,8 @@ void check_material_data(const json& values, const Node& document)
 void check_box(const json& lower, const json& upper, int dimensions, const Node& document, const std::string& path)
 {
     static constexpr const char* axes[] = {"x", "y", "z"};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-        if (dimensions == 2 && axis == 1)
-        {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (dimensions == 2 && axis == 1) {
             if (lower[1] != 0.0 || upper[1] != 0.0)
                 refuse_at(document, path, "has an extent in y, but the case has 2 dimensions",
                           "write \"0 m\" for y or set dimensions = 3");
@@ -158,13 +150,11 @@ void check_domain(const json& values, const Node& document)
     const int dimensions = values.at("dimensions");
     check_box(domain.at("lower"), domain.at("upper"), dimensions, document, "domain.upper");
     const json& boundaries = domain.at("boundaries");
-    for (const char* axis : {"x", "y", "z"})
-    {
+    for (const char* axis : {"x", "y", "z"}) {
         const std::string sides[] = {std::string(axis) + "_min", std::string(axis) + "_max"};
         const bool wanted = dimensions == 3 || axis != std::string("y");
         int periodic = 0;
-        for (const std::string& side : sides)
-        {
+        for (const std::string& side : sides) {
             const std::string path = "domain.boundaries." + side;
             if (boundaries.contains(side) != wanted)
                 refuse_at(document, path, wanted ? "is missing" : "has no meaning in 2 dimensions",
@@ -183,8 +173,7 @@ void check_bodies(const json& values, const Node& document)
     const json& domain = values.at("domain");
     if (values.at("body").empty())
         refuse_at(document, "body", "there is none", "add [[body]] with a shape and a material");
-    for (std::size_t index = 0; index < values.at("body").size(); ++index)
-    {
+    for (std::size_t index = 0; index < values.at("body").size(); ++index) {
         const json& body = values.at("body")[index];
         const std::string path = "body." + std::to_string(index);
         const std::string shape = body.at("shape");
@@ -192,12 +181,9 @@ void check_bodies(const json& values, const Node& document)
             refuse_at(document, path + ".shape", "a powder bed has no meaning in 2 dimensions", "set dimensions = 3");
         if (shape == "sphere" && dimensions == 2 && body.at("center")[1] != 0.0)
             refuse_at(document, path + ".center", "lies outside the plane y = 0", "write \"0 m\" for y");
-        if (shape != "sphere")
-            check_box(body.at("lower"), body.at("upper"), dimensions, document, path + ".upper");
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-            if (dimensions == 2 && axis == 1)
-                continue;
+        if (shape != "sphere") check_box(body.at("lower"), body.at("upper"), dimensions, document, path + ".upper");
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (dimensions == 2 && axis == 1) continue;
             const double radius = shape == "sphere" ? body.at("radius").get<double>() : 0;
             const double lower = shape == "sphere" ? body.at("center")[axis].get<double>() - radius
                                                    : body.at("lower")[axis].get<double>();
@@ -213,37 +199,34 @@ void check_temperatures(const json& values, const Node& document)
 {
     const json& initial = values.at("initial");
     double coldest = initial.at("temperature");
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-        const double extent = values.at("domain").at("upper")[axis].get<double>() -
-                              values.at("domain").at("lower")[axis].get<double>();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double extent =
+            values.at("domain").at("upper")[axis].get<double>() - values.at("domain").at("lower")[axis].get<double>();
         coldest += std::min(0.0, initial.at("temperature_gradient")[axis].get<double>() * extent);
     }
     if (coldest <= 0)
-        refuse_at(document, "initial.temperature_gradient", "makes the domain's coldest corner " + json(coldest).dump() + " K",
+        refuse_at(document, "initial.temperature_gradient",
+                  "makes the domain's coldest corner " + json(coldest).dump() + " K",
                   "lower the gradient or raise initial.temperature");
 }
 
 void check_powder(const json& values, const Node& document)
 {
-    if (!values.contains("powder"))
-        return;
+    if (!values.contains("powder")) return;
     const json& diameter = values.at("powder").at("diameter");
     if (!(diameter.at("minimum") < diameter.at("median") && diameter.at("median") < diameter.at("maximum")))
         refuse_at(document, "powder.diameter", "minimum, median and maximum do not follow each other",
                   "order them from small to great");
 }
 
-}  // namespace
+} // namespace
 
 std::vector<std::string> body_materials(const json& values)
 {
     std::vector<std::string> names;
-    for (const json& body : values.at("body"))
-    {
+    for (const json& body : values.at("body")) {
         const std::string name = body.at("material");
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            names.push_back(name);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
     return names;
 }
@@ -272,19 +255,18 @@ void check_resolution(const json& values, const Node& document, const std::strin
     const double spacing = values.at("resolution").at(level);
     const json& domain = values.at("domain");
     double elements = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-        if (values.at("dimensions") == 2 && axis == 1)
-            continue;
-        const double count = (domain.at("upper")[axis].get<double>() - domain.at("lower")[axis].get<double>()) / spacing;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (values.at("dimensions") == 2 && axis == 1) continue;
+        const double count =
+            (domain.at("upper")[axis].get<double>() - domain.at("lower")[axis].get<double>()) / spacing;
         elements *= count;
         if (count < fewest_spacings)
-            refuse_at(document, "resolution." + level, in_metres(spacing) + " leaves fewer than 4 spacings across the domain",
-                      "take a smaller spacing");
+            refuse_at(document, "resolution." + level,
+                      in_metres(spacing) + " leaves fewer than 4 spacings across the domain", "take a smaller spacing");
     }
     if (elements > most_elements)
         refuse_at(document, "resolution." + level, in_metres(spacing) + " would give more than 2e9 elements",
                   "take a greater spacing");
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -20,4 +20,4 @@ std::vector<std::string> body_materials(const nlohmann::json& values);
 /// Whether the values name a physics.
 bool names_physics(const nlohmann::json& values, const std::string& physics);
 
-}  // namespace cupel
+} // namespace cupel

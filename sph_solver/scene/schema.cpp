@@ -17,14 +17,10 @@ using nlohmann::json;
 json number_schema(const Bounds& bounds)
 {
     json schema{{"type", "number"}};
-    if (bounds.above)
-        schema["exclusiveMinimum"] = *bounds.above;
-    if (bounds.at_least)
-        schema["minimum"] = *bounds.at_least;
-    if (bounds.below)
-        schema["exclusiveMaximum"] = *bounds.below;
-    if (bounds.at_most)
-        schema["maximum"] = *bounds.at_most;
+    if (bounds.above) schema["exclusiveMinimum"] = *bounds.above;
+    if (bounds.at_least) schema["minimum"] = *bounds.at_least;
+    if (bounds.below) schema["exclusiveMaximum"] = *bounds.below;
+    if (bounds.at_most) schema["maximum"] = *bounds.at_most;
     return schema;
 }
 
@@ -32,15 +28,13 @@ json number_schema(const Bounds& bounds)
 json quantity_schema(const std::string& unit, const Bounds& bounds)
 {
     static const std::string number = R"(^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*)";
-    if (unit == "1")
-        return {{"anyOf", {number_schema(bounds), {{"type", "string"}, {"pattern", number + "%?\\s*$"}}}}};
+    if (unit == "1") return {{"anyOf", {number_schema(bounds), {{"type", "string"}, {"pattern", number + "%?\\s*$"}}}}};
     return {{"type", "string"}, {"pattern", number + R"([^\d\s.+-].*$)"}};
 }
 
 json value_schema(const Parameter& parameter)
 {
-    switch (parameter.type)
-    {
+    switch (parameter.type) {
     case Type::quantity:
         return quantity_schema(parameter.unit, parameter.bounds);
     case Type::vector:
@@ -48,8 +42,7 @@ json value_schema(const Parameter& parameter)
                 {"items", quantity_schema(parameter.unit, parameter.bounds)},
                 {"minItems", parameter.components},
                 {"maxItems", parameter.components}};
-    case Type::integer:
-    {
+    case Type::integer: {
         json schema = number_schema(parameter.bounds);
         schema["type"] = "integer";
         return schema;
@@ -77,8 +70,7 @@ json value_schema(const Parameter& parameter)
 
 std::string default_text(const Parameter& parameter)
 {
-    if (parameter.required)
-        return "required";
+    if (parameter.required) return "required";
     std::string text = !parameter.derivation.empty() ? parameter.derivation
                        : parameter.fallback          ? parameter.fallback->dump()
                                                      : "none";
@@ -90,16 +82,15 @@ std::string default_text(const Parameter& parameter)
 json parameter_schema(const Parameter& parameter)
 {
     const json value = value_schema(parameter);
-    const json annotated{{"type", "object"},
-                         {"properties",
-                          {{"value", value}, {"assumed", {{"type", "string"}}}, {"source", {{"type", "string"}}}}},
-                         {"required", {"value"}},
-                         {"additionalProperties", false}};
-    json schema{{"description", parameter.help + "; default: " + default_text(parameter)}, {"anyOf", {value, annotated}}};
-    if (parameter.fallback)
-        schema["default"] = *parameter.fallback;
-    if (parameter.unit != "1")
-        schema["x-unit"] = parameter.unit;
+    const json annotated{
+        {"type", "object"},
+        {"properties", {{"value", value}, {"assumed", {{"type", "string"}}}, {"source", {{"type", "string"}}}}},
+        {"required", {"value"}},
+        {"additionalProperties", false}};
+    json schema{{"description", parameter.help + "; default: " + default_text(parameter)},
+                {"anyOf", {value, annotated}}};
+    if (parameter.fallback) schema["default"] = *parameter.fallback;
+    if (parameter.unit != "1") schema["x-unit"] = parameter.unit;
     return schema;
 }
 
@@ -124,18 +115,15 @@ json table_schema(const Table& table)
         properties[inner.key] = occurrence_schema(inner);
     if (table.key == "material")
         properties["use"] = {{"type", "string"}, {"description", "name of a file in a folder materials/"}};
-    return {{"type", "object"},
-            {"description", table.help},
-            {"properties", properties},
-            {"additionalProperties", false}};
+    return {
+        {"type", "object"}, {"description", table.help}, {"properties", properties}, {"additionalProperties", false}};
 }
 
 std::string bounds_text(const Parameter& parameter)
 {
     std::string text;
     const auto add = [&](const char* sign, const std::optional<double>& limit) {
-        if (limit)
-            text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", sign, *limit);
+        if (limit) text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", sign, *limit);
     };
     add(">", parameter.bounds.above);
     add("≥", parameter.bounds.at_least);
@@ -146,8 +134,7 @@ std::string bounds_text(const Parameter& parameter)
 
 std::string kind_of(const Parameter& parameter)
 {
-    switch (parameter.type)
-    {
+    switch (parameter.type) {
     case Type::quantity:
         return parameter.unit == "1" ? "number" : parameter.unit;
     case Type::vector:
@@ -178,23 +165,19 @@ std::string kind_of(const Parameter& parameter)
 
 std::string heading(const Table& table, const std::string& path)
 {
-    if (table.occurrence == Table::Occurrence::named)
-        return fmt::format("[{}.NAME]", path);
-    if (table.occurrence == Table::Occurrence::listed)
-        return fmt::format("[[{}]]", path);
+    if (table.occurrence == Table::Occurrence::named) return fmt::format("[{}.NAME]", path);
+    if (table.occurrence == Table::Occurrence::listed) return fmt::format("[[{}]]", path);
     return path.empty() ? "At the top of the file" : fmt::format("[{}]", path);
 }
 
 void write_table(const Table& table, const std::string& path, std::string& text)
 {
     text += fmt::format("\n## {}\n\n{}.\n", heading(table, path), table.help);
-    if (!table.parameters.empty())
-        text += "\n| Key | Value | Bounds | Default | Meaning |\n|---|---|---|---|---|\n";
-    for (const Parameter& parameter : table.parameters)
-    {
-        const std::string condition = parameter.only_with.empty()
-                                          ? ""
-                                          : fmt::format(" (with {} {})", parameter.only_with, joined(parameter.only_values));
+    if (!table.parameters.empty()) text += "\n| Key | Value | Bounds | Default | Meaning |\n|---|---|---|---|---|\n";
+    for (const Parameter& parameter : table.parameters) {
+        const std::string condition = parameter.only_with.empty() ? ""
+                                                                  : fmt::format(" (with {} {})", parameter.only_with,
+                                                                                joined(parameter.only_values));
         text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", parameter.key, kind_of(parameter),
                             bounds_text(parameter), default_text(parameter), parameter.help, condition);
     }
@@ -202,21 +185,23 @@ void write_table(const Table& table, const std::string& path, std::string& text)
         write_table(inner, path.empty() ? inner.key : path + "." + inner.key, text);
 }
 
-}  // namespace
+} // namespace
 
 json case_schema()
 {
     json schema = table_schema(case_declaration());
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "Cupel case file";
-    schema["properties"]["base"] = {{"type", "string"}, {"description", "file that lies underneath, relative to this one"}};
+    schema["properties"]["base"] = {{"type", "string"},
+                                    {"description", "file that lies underneath, relative to this one"}};
     return schema;
 }
 
 std::string parameter_reference()
 {
-    std::string text = "# Parameters of a case file\n\nAny value may be written as `{ value = ..., assumed = \"reason\" }` or "
-                       "`{ value = ..., source = \"where from\" }`.\n";
+    std::string text =
+        "# Parameters of a case file\n\nAny value may be written as `{ value = ..., assumed = \"reason\" }` or "
+        "`{ value = ..., source = \"where from\" }`.\n";
     write_table(case_declaration(), "", text);
     text += "\n## Physics\n\n| Name | Needs | Meaning |\n|---|---|---|\n";
     for (const PhysicsDeclaration& physics : physics_declarations())
@@ -227,4 +212,4 @@ std::string parameter_reference()
     return text;
 }
 
-}  // namespace cupel
+} // namespace cupel

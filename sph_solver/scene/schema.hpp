@@ -13,4 +13,4 @@ nlohmann::json case_schema();
 /// Every parameter with its unit, bounds, default and help, as Markdown.
 std::string parameter_reference();
 
-}  // namespace cupel
+} // namespace cupel

@@ -73,17 +73,12 @@ constexpr std::array<Prefix, 14> prefixes{{{"f", -15},
 std::optional<Unit> find_unit(std::string_view name)
 {
     for (const NamedUnit& candidate : named_units())
-        if (name == candidate.name)
-            return candidate.unit;
-    for (const NamedUnit& candidate : named_units())
-    {
-        if (!candidate.prefixes || !name.ends_with(candidate.name))
-            continue;
+        if (name == candidate.name) return candidate.unit;
+    for (const NamedUnit& candidate : named_units()) {
+        if (!candidate.prefixes || !name.ends_with(candidate.name)) continue;
         const std::string_view front = name.substr(0, name.size() - std::string_view(candidate.name).size());
-        for (const Prefix& prefix : prefixes)
-        {
-            if (front != prefix.name)
-                continue;
+        for (const Prefix& prefix : prefixes) {
+            if (front != prefix.name) continue;
             Unit unit = candidate.unit;
             unit.decimal_exponent += prefix.exponent;
             return unit;
@@ -118,7 +113,8 @@ Unit power(const Unit& unit, int exponent)
     return result;
 }
 
-/// Reads `expression = factor { (" " | "*" | "/") factor }`, `factor = (name | "1" | "(" expression ")") [["^"] integer]`.
+/// Reads `expression = factor { (" " | "*" | "/") factor }`, `factor = (name | "1" | "(" expression ")") [["^"]
+/// integer]`.
 class UnitReader
 {
 public:
@@ -127,8 +123,7 @@ public:
     Unit read()
     {
         const Unit unit = expression();
-        if (position_ != text_.size())
-            fail("'" + std::string(text_.substr(position_)) + "' is left over");
+        if (position_ != text_.size()) fail("'" + std::string(text_.substr(position_)) + "' is left over");
         return unit;
     }
 
@@ -151,11 +146,9 @@ private:
         skip_blanks();
         Unit unit = factor();
         bool divided = false;
-        for (skip_blanks(); position_ < text_.size() && !at(')'); skip_blanks())
-        {
+        for (skip_blanks(); position_ < text_.size() && !at(')'); skip_blanks()) {
             const bool division = at('/');
-            if (division || at('*'))
-                ++position_;
+            if (division || at('*')) ++position_;
             if (divided && !division)
                 fail("what stands after '/' is ambiguous, put the denominator in brackets as in N/(m K)");
             divided = divided || division;
@@ -168,12 +161,10 @@ private:
     Unit factor()
     {
         Unit unit;
-        if (at('('))
-        {
+        if (at('(')) {
             ++position_;
             unit = expression();
-            if (!at(')'))
-                fail("a bracket is not closed");
+            if (!at(')')) fail("a bracket is not closed");
             ++position_;
         }
         else if (at('1'))
@@ -192,8 +183,7 @@ private:
         if (name.empty())
             fail(position_ < text_.size() ? "'" + std::string(1, text_[position_]) + "' stands where a unit should"
                                           : "a unit is missing at the end");
-        if (const auto unit = find_unit(name))
-            return *unit;
+        if (const auto unit = find_unit(name)) return *unit;
         fail("'" + std::string(name) + "' is not known" + suggestion(name, usual_unit_names()));
     }
 
@@ -206,8 +196,7 @@ private:
     int exponent()
     {
         const bool marked = at('^');
-        if (marked)
-            ++position_;
+        if (marked) ++position_;
         int value = 1;
         const char* first = text_.data() + position_;
         const auto [end, problem] = std::from_chars(first, text_.data() + text_.size(), value);
@@ -236,8 +225,7 @@ double scaled(std::string_view number, const Unit& unit)
 {
     std::string mantissa(number);
     int exponent = unit.decimal_exponent;
-    if (const std::size_t mark = mantissa.find_first_of("eE"); mark != std::string::npos)
-    {
+    if (const std::size_t mark = mantissa.find_first_of("eE"); mark != std::string::npos) {
         exponent += std::stoi(mantissa.substr(mark + 1));
         mantissa.resize(mark);
     }
@@ -253,36 +241,29 @@ double scaled(std::string_view number, const Unit& unit)
 std::size_t number_length(std::string_view text)
 {
     std::size_t position = 0;
-    const auto digits = [&]
-    {
+    const auto digits = [&] {
         const std::size_t start = position;
         while (position < text.size() && std::isdigit(static_cast<unsigned char>(text[position])))
             ++position;
         return position - start;
     };
-    if (position < text.size() && (text[position] == '+' || text[position] == '-'))
-        ++position;
+    if (position < text.size() && (text[position] == '+' || text[position] == '-')) ++position;
     std::size_t count = digits();
-    if (position < text.size() && text[position] == '.')
-    {
+    if (position < text.size() && text[position] == '.') {
         ++position;
         count += digits();
     }
-    if (count == 0)
-        return 0;
+    if (count == 0) return 0;
     const std::size_t mantissa_end = position;
-    if (position < text.size() && (text[position] == 'e' || text[position] == 'E'))
-    {
+    if (position < text.size() && (text[position] == 'e' || text[position] == 'E')) {
         ++position;
-        if (position < text.size() && (text[position] == '+' || text[position] == '-'))
-            ++position;
-        if (const std::size_t length = digits(); length == 0 || length > 4)
-            position = mantissa_end;
+        if (position < text.size() && (text[position] == '+' || text[position] == '-')) ++position;
+        if (const std::size_t length = digits(); length == 0 || length > 4) position = mantissa_end;
     }
     return position;
 }
 
-}  // namespace
+} // namespace
 
 Unit parse_unit(std::string_view text)
 {
@@ -294,8 +275,7 @@ Quantity parse_quantity(std::string_view text)
 {
     const std::string_view stripped = trimmed(text);
     const std::size_t length = number_length(stripped);
-    if (length == 0)
-        throw UnitError("'" + std::string(text) + "' does not begin with a number");
+    if (length == 0) throw UnitError("'" + std::string(text) + "' does not begin with a number");
     const Unit unit = parse_unit(stripped.substr(length));
     return {scaled(stripped.substr(0, length), unit), unit.dimension};
 }
@@ -306,20 +286,16 @@ std::string dimension_text(const Dimension& dimension)
     std::string above;
     std::string below;
     int below_count = 0;
-    for (const std::size_t base : {1, 0, 2, 3, 4, 5})
-    {
+    for (const std::size_t base : {1, 0, 2, 3, 4, 5}) {
         const int exponent = dimension.exponents[base];
-        if (exponent == 0)
-            continue;
+        if (exponent == 0) continue;
         std::string& side = exponent > 0 ? above : below;
         side += (side.empty() ? "" : " ") + std::string(names[base]);
-        if (std::abs(exponent) != 1)
-            side += "^" + std::to_string(std::abs(exponent));
+        if (std::abs(exponent) != 1) side += "^" + std::to_string(std::abs(exponent));
         below_count += exponent < 0 ? 1 : 0;
     }
-    if (below.empty())
-        return above.empty() ? "1" : above;
+    if (below.empty()) return above.empty() ? "1" : above;
     return (above.empty() ? "1" : above) + "/" + (below_count > 1 ? "(" + below + ")" : below);
 }
 
-}  // namespace cupel
+} // namespace cupel

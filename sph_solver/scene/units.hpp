@@ -33,7 +33,7 @@ struct Unit
 
 struct Quantity
 {
-    double value = 0;  ///< SI
+    double value = 0; ///< SI
     Dimension dimension;
 };
 
@@ -53,4 +53,4 @@ Quantity parse_quantity(std::string_view text);
 /// Dimension in base units, e.g. "kg m/s^2"; "1" where there is none.
 std::string dimension_text(const Dimension& dimension);
 
-}  // namespace cupel
+} // namespace cupel

@@ -35,7 +35,7 @@ def particles(position, spacing, dimensions=3, **fields):
     return Elements(position, np.full(n, spacing**dimensions), fields.pop("fraction", np.ones(n)), **fields)
 
 
-def cells(inside, lower, upper, spacing, dimensions=3, finer=8, **fields):
+def cells(inside, lower, upper, spacing, dimensions=3, finer=6, **fields):
     """Cubic cells with fraction = share of a cell where inside(points) holds, by finer^d points in mixed cells."""
     position = lattice(lower, upper, spacing, dimensions)
     axes = (0, 1, 2) if dimensions == 3 else (0, 2)
@@ -48,7 +48,7 @@ def cells(inside, lower, upper, spacing, dimensions=3, finer=8, **fields):
     fraction = seen[-1].astype(float)
     mixed = np.flatnonzero(seen.any(axis=0) & ~seen.all(axis=0))
     points = position[mixed, None, :] + spacing * sub
-    fraction[mixed] = inside(points.reshape(-1, 3)).reshape(len(mixed), -1).mean(axis=1)
+    fraction[mixed] = inside(points.reshape(-1, 3)).reshape(len(mixed), len(sub)).mean(axis=1)
     n = len(position)
     fields = {name: value(position) if callable(value) else value for name, value in fields.items()}
     return Elements(position, np.full(n, spacing**3), fraction, extent=np.full((n, 3), spacing), **fields)
@@ -67,17 +67,18 @@ def in_cap(cap, center=(0.0, 0.0)):
     return inside
 
 
-def drop(angle_degrees, form, diameter=20.0, dimensions=3, center=(0.13, -0.21), seed=1, noise=0.15):
+def drop(angle_degrees, form, diameter=20.0, dimensions=3, center=(0.13, -0.21), seed=1, noise=0.15, room=None):
     """Elements and case of a cap of the volume of a ball of `diameter` spacings (spacing 1).
 
     form: "lattice", "jittered" (each particle moved by up to `noise` along each axis), "two_phase" or "cells".
+    room: half width and height of the domain, in spacings; 4 more than the drop if None.
     """
     ball = np.pi * diameter**3 / 6.0 if dimensions == 3 else np.pi * diameter**2 / 4.0
     cap = Cap.of_content(ball, np.radians(angle_degrees), dimensions)
     widest = cap.radius if angle_degrees > 90 else cap.base_radius
-    half = np.ceil(widest) + 4.0
+    half, top = room or (np.ceil(widest) + 4.0, np.ceil(cap.height) + 4.0)
     lower = [-half, -half if dimensions == 3 else 0.0, 0.0]
-    upper = [half, half if dimensions == 3 else 0.0, np.ceil(cap.height) + 4.0]
+    upper = [half, half if dimensions == 3 else 0.0, top]
     lower, upper = np.array(lower), np.array(upper)
     inside = in_cap(cap, center)
     case = scene(1.0, dimensions, lower, upper)

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cupel.measures import Elements
+from cupel.measures.contact_angle import fit_sphere
 from cupel.measures.fields import Resampled, mirrored, subdivided
 from cupel.measures.surface import SURFACE_DENSITY, box, cross_section, interface, largest_region
-from tests.measures.exact_elements import cells, in_cap, lattice, particles, scene
+from tests.measures.exact_elements import cells, lattice, particles, scene
 from cupel.exact.spherical_cap import Cap
 
 LOWER, UPPER = np.array([-6.0, -6.0, 0.0]), np.array([6.0, 6.0, 12.0])
@@ -115,8 +116,30 @@ def test_coarse_cells_are_cut_and_leave_no_gaps():
 
 
 def test_two_dimensional_volumes_are_areas_whatever_thickness_the_file_has():
-    position = lattice([0, 0, 0], [4.0, 0, 4.0], 0.01, 2)
+    position = lattice([0, 0, 0], [0.2, 0, 0.2], 0.01, 2)
     area = np.full(len(position), 1e-4)
     for volume, extent in ((area, None), (area * 0.01, None), (area * 0.2, np.tile([0.01, 0.2, 0.01], (len(position), 1)))):
         made = Elements(position, volume, np.ones(len(position)), extent=extent)
         assert made.content(2, 0.01) == pytest.approx(area)
+
+
+@pytest.mark.parametrize("radius", [5.0, 8.0, 15.0])
+def test_ball_of_particles_that_follow_its_surface_is_found_within_a_hundredth_of_a_spacing(radius):
+    position, volume = [], []
+    turn = np.random.default_rng(0)
+    for outer in np.arange(radius, 0.0, -1.0):   # shells one spacing thick, points spread evenly on each
+        content = 4.0 / 3.0 * np.pi * (outer**3 - max(outer - 1.0, 0.0)**3)
+        count = max(round(content), 1)
+        z = 1.0 - 2.0 * (np.arange(count) + 0.5) / count
+        azimuth = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
+        direction = np.stack([np.sqrt(1.0 - z**2) * np.cos(azimuth), np.sqrt(1.0 - z**2) * np.sin(azimuth), z], axis=1)
+        position.append((outer - 0.5) * direction @ np.linalg.qr(turn.normal(size=(3, 3)))[0])
+        volume.append(np.full(count, content / count))
+    volume = np.concatenate(volume)
+    reach = radius + 4.0
+    case = scene(1.0, 3, [-reach] * 3, [reach] * 3)
+    resampled = resample(Elements(np.concatenate(position), volume, np.ones(len(volume))), case, [1 - reach] * 3, [reach - 1] * 3)
+    surface = interface(resampled, largest_region(resampled.density >= SURFACE_DENSITY)[0])
+    center, found, residual = fit_sphere(surface.points, surface.weights)
+    assert found + resampled.surface_variance / found == pytest.approx(radius, abs=0.01)
+    assert residual < 0.03 and np.abs(center).max() < 0.01

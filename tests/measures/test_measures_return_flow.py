@@ -65,6 +65,16 @@ def test_uniform_drift_is_its_own_error_and_a_net_flux():
     assert reading.beside["net_flux_share"] == pytest.approx(0.05, abs=0.003)
 
 
+def test_waves_drop_out_of_the_mean_profile_and_lasting_errors_do_not():
+    measure, readings = find_measure("mean_profile_error"), []
+    for phase in (0.0, np.pi):
+        wave = 0.1 * SPEED * np.cos(phase)
+        snapshot = flowing("jittered", change=lambda u, eta: 1.1 * u + wave)
+        assert value("profile_error", snapshot) == pytest.approx(np.hypot(0.1, 0.1 * np.sqrt(2.0 / 15.0)), rel=0.03)
+        readings.append(measure.read(snapshot))
+    assert measure.combine(readings).value == pytest.approx(0.1 * np.sqrt(2.0 / 15.0), rel=0.03)
+
+
 def test_flow_the_wrong_way_is_wrong():
     snapshot = flowing("lattice", change=lambda u, eta: -u)
     assert value("profile_error", snapshot) == pytest.approx(2.0 * np.sqrt(2.0 / 15.0), rel=0.02)

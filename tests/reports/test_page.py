@@ -121,7 +121,7 @@ def test_figure_nine_and_its_table(outline):
 
 
 def test_assumed_values_stand_beside_the_results_that_depend_on_them(outline):
-    section = outline.text.split("slm_track_150w Single track")[1].split("slm_track_200w")[0]
+    section = outline.text.split("slm_track_150w Single track")[2].split("slm_track_200w")[0]
     assert "laser.spot_diameter = 160 μm conduction regime" in section
     assert "body.radius" in outline.text.split("What the paper does not state")[1]
 

@@ -69,13 +69,13 @@ synthetic.write_fields(folder, "sph", case, 0.0)
 @pytest.fixture
 def stand_ins(tmp_path: Path) -> dict[str, str]:
     """Environment whose programs are the stand-ins."""
-    root, folder = str(Path(__file__).resolve().parents[2]), tmp_path / "programs"
-    folder.mkdir()
+    root, folder = str(Path(__file__).resolve().parents[2]), tmp_path / "build" / "bin"
+    folder.mkdir(parents=True)
     for name, text in (("cupel_case", CASE_READER), ("cupel_sph", SOLVER)):
         path = folder / name
         path.write_text(text.format(root=root))
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    return {"CUPEL_PROGRAMS": str(folder)}
+    return {"CUPEL_BUILD": str(folder.parent)}
 
 
 @pytest.fixture

@@ -76,7 +76,7 @@ def test_a_results_folder_that_cannot_be_written_is_one_line(run_case):
 
 
 def test_a_missing_program_says_how_to_get_it(cupel, tmp_path):
-    done = cupel("run", "--results", tmp_path / "r", env={"CUPEL_PROGRAMS": str(tmp_path)})
+    done = cupel("run", "--results", tmp_path / "r", env={"CUPEL_BUILD": str(tmp_path)})
     assert done.returncode == 1 and "cupel_case is missing" in one_line(done.stderr)
 
 

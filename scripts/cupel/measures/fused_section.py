@@ -7,8 +7,9 @@ there. In each plane
     width    greatest less least place across the track
     depth    z_plate less the lowest place, at least 0
     height   highest place less z_plate, at least 0
+    area     of the section, bead and all (twice that of a half model)
 
-and fused_width, fused_depth, fused_height are means over the planes; their uncertainty is the standard deviation over them.
+and fused_width, fused_depth, fused_height, fused_area are means over the planes; their uncertainty is the standard deviation over them.
 """
 
 from __future__ import annotations
@@ -20,17 +21,18 @@ import numpy as np
 from .melt_pool import across, hot_region, melting_temperature, molten_pool, plate_surface, resample_hot
 from .registry import Reading, measure_of_snapshot
 from .snapshot import Snapshot
-from .surface import ends
+from .surface import ends, lengths
 from .track import Track
 
 
 @dataclass(frozen=True)
 class Sections:
-    """Width, depth, height (m) of each plane, each (planes); empty where nothing fused. `note` for the reader."""
+    """Width, depth, height (m), area (m^2) of each plane, each (planes); empty where nothing fused; `note` for the reader."""
 
     width: np.ndarray
     depth: np.ndarray
     height: np.ndarray
+    area: np.ndarray
     note: str = ""
 
 
@@ -47,11 +49,11 @@ def fused_sections(snapshot: Snapshot) -> Sections:
     nothing = np.zeros(0)
     found = resample_hot(elements, "peak_temperature", threshold, case, track, reaches)
     if found is None:
-        return Sections(nothing, nothing, nothing)
+        return Sections(nothing, nothing, nothing, nothing)
     resampled, values, _ = found
     region, _ = hot_region(resampled, values, threshold, reaches)
     if not region.any():
-        return Sections(nothing, nothing, nothing)
+        return Sections(nothing, nothing, nothing, nothing)
 
     note = ""
     tail = snapshot.once(molten_pool).tail if elements.temperature is not None else None
@@ -64,7 +66,7 @@ def fused_sections(snapshot: Snapshot) -> Sections:
     planes = (along >= begin - 1e-9 * case["spacing"]) & (along <= end + 1e-9 * case["spacing"])
     planes &= region.any(axis=tuple(range(1, region.ndim)))
     if not planes.any():
-        return Sections(nothing, nothing, nothing, note)
+        return Sections(nothing, nothing, nothing, nothing, note)
     resampled_ends = {(axis, step): ends(resampled, axis, step, region, values, threshold)[planes]
                       for axis in range(1, region.ndim) for step in (-1, +1)}
 
@@ -73,12 +75,15 @@ def fused_sections(snapshot: Snapshot) -> Sections:
         return reduce(resampled_ends[axis, step].reshape(np.count_nonzero(planes), -1), axis=1)
 
     lowest, highest = extreme(region.ndim - 1, -1), extreme(region.ndim - 1, +1)
-    width = np.zeros(len(lowest))
+    width = area = np.zeros(len(lowest))
     if region.ndim == 3:
         left, right = extreme(1, -1), extreme(1, +1)
         width = np.array([across(np.array([0.0, low]), np.array([0.0, high]), case, track)
                           for low, high in zip(left, right)])
-    return Sections(width, np.maximum(plate - lowest, 0.0), np.maximum(highest - plate, 0.0), note)
+        upright = lengths(resampled, region, 2, values, threshold)[planes]
+        halves = np.where(width > 1.5 * (right - left), 2.0, 1.0)   # sections that a symmetry plane cuts
+        area = np.trapz(upright, dx=resampled.grid_spacing, axis=1) * halves
+    return Sections(width, np.maximum(plate - lowest, 0.0), np.maximum(highest - plate, 0.0), area, note)
 
 
 def _reading(snapshot: Snapshot, values_of) -> Reading:
@@ -95,6 +100,13 @@ def fused_width(snapshot: Snapshot) -> Reading:
     if snapshot.case["dimensions"] == 2:
         return Reading(None, note="a two-dimensional scene has no width across the track")
     return _reading(snapshot, lambda sections: sections.width)
+
+
+@measure_of_snapshot("fused_area", unit="m^2", needs=("peak_temperature",), summary="last")
+def fused_area(snapshot: Snapshot) -> Reading:
+    if snapshot.case["dimensions"] == 2:
+        return Reading(None, note="a two-dimensional scene has no section across the track")
+    return _reading(snapshot, lambda sections: sections.area)
 
 
 @measure_of_snapshot("fused_depth", unit="m", needs=("peak_temperature",), summary="last")

@@ -21,7 +21,7 @@ def measure(result_folder: Path | str, resolved_case: dict) -> list[dict]:
 
     result_folder: with fields/fields.pvd and, for ledgers, run.json; measures.csv (a row a snapshot) is written there.
     A measure of snapshots is the mean over those in `between` (the last one if not given) with the standard deviation
-    as uncertainty. References of kind "solver" without a value stay open. A reference of kind "exact" without
+    as uncertainty, unless it has a way of its own. References of kind "solver" without a value stay open. A reference of kind "exact" without
     a value is computed where the measure knows how.
     Errors: MeasureError, one line, for unknown measures and for snapshots or ledgers that are missing or incomplete.
     """
@@ -45,7 +45,8 @@ def measure(result_folder: Path | str, resolved_case: dict) -> list[dict]:
             reading = finals.get(id(request)) or _no_snapshot(request)
         else:
             found = windows[id(request)]
-            reading = summary([readings[chosen.name][index] for index in found]) if found else _no_snapshot(request)
+            reading = (chosen.combine or summary)([readings[chosen.name][index] for index in found]) \
+                if found else _no_snapshot(request)
         results.append(_judged(request, chosen, reading, resolved_case))
     return results
 
@@ -116,7 +117,7 @@ def _judged(request: dict, chosen: Measure, reading: Reading, case: dict) -> dic
     row = {
         "name": chosen.name, "value": _number(reading.value), "unit": chosen.unit,
         "uncertainty": _number(reading.uncertainty), "reference": _number(expected), "reference_kind": kind,
-        "source": reference.get("source") or "", "metric": request.get("metric"), "tolerance": request.get("tolerance"),
+        "source": reference.get("source") or "", "metric": request.get("metric"), "tolerance": _number(request.get("tolerance")),
     }
     if reference.get("solver"):
         row["reference_solver"] = reference["solver"]

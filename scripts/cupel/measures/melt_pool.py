@@ -94,7 +94,9 @@ def hot_region(resampled: Resampled, values: np.ndarray, threshold: float, reach
     place = np.zeros((len(nodes), 3))
     place[:, resampled.axes] = resampled.origin + nodes * resampled.grid_spacing
     reached = np.bincount(numbers[molten], reaches(place), len(sizes) + 1)[1:] > 0
-    return numbers == _preferred(sizes, reached), len(sizes) - 1
+    chosen = _preferred(sizes, reached)
+    others = np.count_nonzero(np.delete(sizes, chosen - 1) >= 2**values.ndim)   # nodes in one element; less is no region
+    return numbers == chosen, int(others)
 
 
 def _preferred(sizes: np.ndarray, reached: np.ndarray) -> int:

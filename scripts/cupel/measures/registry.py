@@ -27,12 +27,14 @@ class Reading:
     uncertainty: the reading's own spread (None: the spread over snapshots is taken instead).
     beside: further columns of measures.csv, keyed by a name that carries its unit.
     note: one sentence for the reader of the result, empty where there is nothing to say.
+    kept: what the measure's own `combine` needs of this snapshot.
     """
 
     value: float | None
     uncertainty: float | None = None
     beside: dict[str, float | None] = field(default_factory=dict)
     note: str = ""
+    kept: Any = None
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ class Measure:
     needs: fields of `Elements` that must be in the snapshot.
     summary: "mean" over the snapshots of `between`, "last" of them, or "run" (from run.json).
     exact: function of the resolved case that gives the exact reference where the case names none.
+    combine: function that makes one reading of the readings of `between`, in place of their mean and spread.
     """
 
     name: str
@@ -51,6 +54,7 @@ class Measure:
     needs: tuple[str, ...]
     summary: str
     exact: Callable[[dict], float] | None
+    combine: Callable[[list[Reading]], Reading] | None = None
 
 
 _measures: dict[str, Measure] = {}
@@ -69,13 +73,14 @@ def measure_of_snapshot(
     needs: tuple[str, ...] = (),
     summary: str = "mean",
     exact: Callable[[dict], float] | None = None,
+    combine: Callable[[list[Reading]], Reading] | None = None,
 ):
     """Register `function(snapshot) -> Reading` as the measure `name`; see `Measure` for the options."""
     if summary not in ("mean", "last"):
         raise ValueError(f"measure '{name}': summary is 'mean' or 'last', not '{summary}'")
 
     def decorate(function):
-        _register(Measure(name, unit, function, tuple(needs), summary, exact))
+        _register(Measure(name, unit, function, tuple(needs), summary, exact, combine))
         return function
 
     return decorate

@@ -5,7 +5,9 @@
 Elements of the primary material (fraction > 1/2) in the middle third of the layer's length, each with its own velocity at
 its own height:
 
-    profile_error   sqrt( sum V (u_x - u)^2 / sum V ) / |tau H/4 mu|
+    profile_error   sqrt( sum V (u_x - u)^2 / sum V ) / |tau H/4 mu|, of each snapshot, then the mean over snapshots
+    mean_profile_error   the same of what is left of u_x - u after averaging over layers one spacing thick and over the
+                    snapshots: waves and the scatter of particles drop out; never above profile_error
     surface_speed   velocity at eta = 1 in the direction that Marangoni stress drives, from a parabola fitted to eta > 1/2
     zero_crossing   the height eta where the layer-averaged velocity turns round (2/3 in the exact flow)
 
@@ -98,6 +100,32 @@ def profile_error(snapshot: Snapshot) -> Reading:
     return Reading(float(np.sqrt(square) / abs(layer.surface_velocity)), beside={"net_flux_share": float(flux)})
 
 
+def _layers(profile: Profile, spacing: float) -> tuple[np.ndarray, int]:
+    """Number of the layer, one spacing thick, that each element is in, and how many layers there are."""
+    count = max(int(round(profile.layer.depth / spacing)), 3)
+    return np.clip((profile.eta * count).astype(int), 0, count - 1), count
+
+
+def _of_mean_profile(readings: list[Reading]) -> Reading:
+    """Root mean square over layers of the deviation averaged over elements and snapshots."""
+    weight = sum(reading.kept[0] for reading in readings)
+    deviation = sum(reading.kept[1] for reading in readings)
+    filled = weight > 0.0
+    mean = deviation[filled] / weight[filled]
+    return Reading(float(np.sqrt(np.average(mean**2, weights=weight[filled]))))
+
+
+@measure_of_snapshot("mean_profile_error", unit="1", needs=("velocity",), exact=lambda case: 0.0, combine=_of_mean_profile)
+def mean_profile_error(snapshot: Snapshot) -> Reading:
+    profile = snapshot.once(middle_profile)
+    layer = profile.layer
+    expected = exact.velocity(profile.eta, layer.stress, layer.depth, layer.viscosity)
+    deviation = (profile.velocity - expected) / abs(layer.surface_velocity)
+    place, count = _layers(profile, snapshot.case["spacing"])
+    kept = (np.bincount(place, profile.weight, count), np.bincount(place, profile.weight * deviation, count))
+    return Reading(_of_mean_profile([Reading(None, kept=kept)]).value, kept=kept)
+
+
 @measure_of_snapshot("surface_speed", unit="m/s", needs=("velocity",),
                      exact=lambda case: abs(layer_of(case).surface_velocity))
 def surface_speed(snapshot: Snapshot) -> Reading:
@@ -116,8 +144,7 @@ def surface_speed(snapshot: Snapshot) -> Reading:
 def zero_crossing(snapshot: Snapshot) -> Reading:
     profile = snapshot.once(middle_profile)
     layer = profile.layer
-    count = max(int(round(layer.depth / snapshot.case["spacing"])), 3)
-    place = np.clip((profile.eta * count).astype(int), 0, count - 1)
+    place, count = _layers(profile, snapshot.case["spacing"])
     weight = np.bincount(place, profile.weight, count)
     with np.errstate(invalid="ignore"):
         mean = np.bincount(place, profile.weight * profile.velocity, count) / weight * np.sign(layer.stress)

@@ -102,15 +102,20 @@ def interface(resampled: Resampled, inside: np.ndarray) -> Interface:
     return Interface(np.concatenate(points), np.concatenate(weights))
 
 
+def lengths(resampled: Resampled, inside: np.ndarray, axis: int, values: np.ndarray | None = None,
+            threshold: float = 0.0) -> np.ndarray:
+    """Length (m) of grid lines along `axis` inside a region; the grid's shape without that axis."""
+    line = np.moveaxis(inside, axis, 0)
+    total = (line[:-1] & line[1:]).sum(axis=0).astype(float)
+    for step in (-1, +1):
+        total += np.nansum(crossing_fractions(resampled, axis, step, inside, values, threshold), axis=axis)
+    return total * resampled.grid_spacing
+
+
 def cross_section(resampled: Resampled, inside: np.ndarray) -> np.ndarray:
     """Area (3-D, m^2) or width (2-D, m) of a region at each height, (number of planes).
 
     Lengths along x are exact to linear interpolation; across, rows count by the trapezoidal rule.
     """
-    g = resampled.grid_spacing
-    length = (inside[:-1] & inside[1:]).sum(axis=0).astype(float)
-    for step in (-1, +1):
-        length += np.nansum(crossing_fractions(resampled, 0, step, inside), axis=0)
-    if inside.ndim == 2:
-        return length * g
-    return (length.sum(axis=0) - 0.5 * (length[0] + length[-1])) * g * g
+    length = lengths(resampled, inside, 0)
+    return length if inside.ndim == 2 else np.trapz(length, dx=resampled.grid_spacing, axis=0)

@@ -22,7 +22,7 @@ TEST_F(AtomicFile, WritesAndReplacesTheWholeContent)
 
 TEST_F(AtomicFile, KeepsEveryByte)
 {
-    std::string content(3'000'000, '\0');  // longer than a block of reading
+    std::string content(3'000'000, '\0'); // longer than a block of reading
     for (std::size_t k = 0; k < content.size(); ++k)
         content[k] = static_cast<char>(k * 31 + k / 256);
     write_whole(folder / "bytes", content);
@@ -45,8 +45,8 @@ TEST_F(AtomicFile, FullDiskLeavesTheOldFileAndNothingBeside)
 
 TEST_F(AtomicFile, AWriteThatTheDiskRefusesIsReported)
 {
-    const std::string message = message_of<OutputError>(
-        [] { FileDescriptor("/dev/full", O_WRONLY, "written").write("does not fit"); });
+    const std::string message =
+        message_of<OutputError>([] { FileDescriptor("/dev/full", O_WRONLY, "written").write("does not fit"); });
     EXPECT_TRUE(one_line_with(message, {"/dev/full", "the disk is full", "--resume"}));
 }
 
@@ -78,4 +78,4 @@ TEST_F(AtomicFile, EveryExpectedSystemErrorSaysWhatToDo)
                                   {"/results/history.csv: cannot be written: ", "; "}));
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -18,7 +19,7 @@ namespace cupel::test
 namespace
 {
 
-constexpr Index count = 1003;  // not a multiple of the lanes
+constexpr Index count = 1003; // not a multiple of the lanes
 
 RunState some_state()
 {
@@ -31,7 +32,7 @@ RunState some_state()
     return state;
 }
 
-}  // namespace
+} // namespace
 
 class CheckpointFile : public OutputTest
 {
@@ -52,8 +53,7 @@ protected:
         Particles untouched(count);
         register_fields(untouched);
         std::string message = message_of<OutputError>([&] { load_checkpoint(file, provenance, loaded); });
-        if (!message.empty())
-        {
+        if (!message.empty()) {
             EXPECT_TRUE(same_particles(loaded, untouched)) << "a refused checkpoint has changed the particles";
         }
         return message;
@@ -92,19 +92,21 @@ TEST_F(CheckpointFile, BringsBackEveryBit)
     EXPECT_EQ(load_ledger("energy", checkpoint.state.numbers).reference, 5.0);
 }
 
-TEST_F(CheckpointFile, SameStateGivesTheSameFile)
+TEST_F(CheckpointFile, SameStateGivesTheSameFileAtAnyTime)
 {
     save_checkpoint(file, some_provenance(), particles, some_state());
     const std::string once = read_whole(file);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1010));  // the library's times count seconds
     save_checkpoint(file, some_provenance(), particles, some_state());
     EXPECT_TRUE(once == read_whole(file));
 }
 
 TEST_F(CheckpointFile, TruncatedOneIsRefused)
 {
-    for (const double share : {0.999, 0.5, 0.02})
-    {
-        tamper([&](std::string& bytes) { bytes.resize(static_cast<std::size_t>(share * static_cast<double>(bytes.size()))); });
+    for (const double share : {0.999, 0.5, 0.02}) {
+        tamper([&](std::string& bytes) {
+            bytes.resize(static_cast<std::size_t>(share * static_cast<double>(bytes.size())));
+        });
         EXPECT_TRUE(one_line_with(refusal(), {file.string(), "truncated", "start the run anew"}));
     }
     tamper([](std::string& bytes) { bytes.resize(20); });
@@ -118,8 +120,7 @@ TEST_F(CheckpointFile, OneFlippedBitAnywhereIsRefused)
     save_checkpoint(file, some_provenance(), particles, some_state());
     const std::string good = read_whole(file);
     const std::size_t size = good.size();
-    for (std::size_t k = 0; k < 60; ++k)
-    {
+    for (std::size_t k = 0; k < 60; ++k) {
         // The header densely, the rest in even steps.
         const std::size_t place = k < 40 ? 13 * k : 520 + (k - 40) * (size - 521) / 19;
         std::string bytes = good;
@@ -229,6 +230,38 @@ TEST_F(CheckpointFile, VanishedFolderIsReported)
                               {"gone/checkpoint_", "not there"}));
 }
 
+TEST_F(CheckpointFile, AKillAtAnyByteLeavesTheLastOneIntact)
+{
+    // The system kills a process that writes beyond the limit it was given: a kill after exactly so many bytes, both of
+    // a checkpoint with a new name and of one that replaces an earlier one.
+    Checkpoints checkpoints(folder, some_provenance());
+    RunState state = some_state();
+    state.step = 1;
+    file = checkpoints.write(particles, state);
+    const std::string good = read_whole(file);
+    for (std::size_t k = 0; k < 20; ++k) {
+        const rlim_t bytes = k * good.size() / 20;
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            const rlimit no_core{0, 0};
+            ::setrlimit(RLIMIT_CORE, &no_core);
+            const FileSizeLimit limit(bytes);
+            std::signal(SIGXFSZ, SIG_DFL);
+            state.step = 1 + k % 2;
+            particles.scalar("enthalpy")[0] = 1.0;
+            checkpoints.write(particles, state);
+            std::_Exit(0);
+        }
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) << "not killed at byte " << bytes;
+        EXPECT_EQ(newest_checkpoint(folder), file) << "killed at byte " << bytes;
+        EXPECT_TRUE(read_whole(file) == good) << "killed at byte " << bytes;
+    }
+    EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(CheckpointFile, AKillAtAnyMomentLeavesAGoodOne)
 {
     // A process that writes checkpoints as fast as it can, each with its step in every number, is killed at 20 moments.
@@ -237,14 +270,11 @@ TEST_F(CheckpointFile, AKillAtAnyMomentLeavesAGoodOne)
     RunState state;
     checkpoints.write(particles, state);
     std::uint64_t greatest = 0;
-    for (int kill_number = 0; kill_number < 20; ++kill_number)
-    {
+    for (int kill_number = 0; kill_number < 20; ++kill_number) {
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
-        if (child == 0)
-        {
-            for (state.step = greatest + 1;; ++state.step)
-            {
+        if (child == 0) {
+            for (state.step = greatest + 1;; ++state.step) {
                 std::fill_n(particles.scalar("enthalpy").values.begin(), count, static_cast<double>(state.step));
                 state.time = static_cast<double>(state.step);
                 checkpoints.write(particles, state);
@@ -263,8 +293,7 @@ TEST_F(CheckpointFile, AKillAtAnyMomentLeavesAGoodOne)
         const LoadedCheckpoint checkpoint = load_checkpoint(*newest, some_provenance(), loaded);
         EXPECT_GE(checkpoint.state.step, greatest);
         EXPECT_EQ(checkpoint.state.time, static_cast<double>(checkpoint.state.step));
-        if (checkpoint.state.step > 0)
-        {
+        if (checkpoint.state.step > 0) {
             EXPECT_EQ(loaded.scalar("enthalpy")[count - 1], static_cast<double>(checkpoint.state.step));
         }
         greatest = checkpoint.state.step;
@@ -272,4 +301,4 @@ TEST_F(CheckpointFile, AKillAtAnyMomentLeavesAGoodOne)
     EXPECT_GT(greatest, 0U) << "no checkpoint was written between the kills";
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

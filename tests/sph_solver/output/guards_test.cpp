@@ -26,8 +26,7 @@ struct SoundScene
 
     SoundScene()
     {
-        for (Index i = 0; i < count; ++i)
-        {
+        for (Index i = 0; i < count; ++i) {
             particles.position.set(i, {1e-4, 0.0, 5e-4});
             particles.density[i] = 6900.0;
             (*temperature)[i] = 1800.0;
@@ -51,19 +50,21 @@ struct Fault
     std::function<void(SoundScene&)> make;
 };
 
-void PrintTo(const Fault& fault, std::ostream* stream) { *stream << fault.name; }
+void PrintTo(const Fault& fault, std::ostream* stream)
+{
+    *stream << fault.name;
+}
 
 class GuardFault : public ::testing::TestWithParam<Fault>
-{
-};
+{};
 
-}  // namespace
+} // namespace
 
 TEST(Guard, SoundStatePasses)
 {
     SoundScene scene;
     EXPECT_FALSE(scene.check().has_value());
-    scene.particles.velocity.set(faulty, {0.0, 0.0, 10.0});  // bounds are inclusive
+    scene.particles.velocity.set(faulty, {0.0, 0.0, 10.0}); // bounds are inclusive
     scene.particles.density[faulty] = 1.1 * 6900.0;
     EXPECT_FALSE(scene.check().has_value());
 }
@@ -142,8 +143,7 @@ TEST(Guard, CollapsedTimeStepIsNamedWithItsCriterion)
     const SoundScene scene;
     const Guards guards(scene.particles, scene.limits);
     EXPECT_FALSE(guards.check_time_step(1e-7, "acoustic", time_now).has_value());
-    for (const double step : {1e-13, 0.0, -1e-7, not_a_number, infinite})
-    {
+    for (const double step : {1e-13, 0.0, -1e-7, not_a_number, infinite}) {
         const auto diagnosis = guards.check_time_step(step, "capillary", time_now);
         ASSERT_TRUE(diagnosis.has_value()) << step;
         EXPECT_NE(diagnosis->line().find("capillary"), std::string::npos);
@@ -151,4 +151,4 @@ TEST(Guard, CollapsedTimeStepIsNamedWithItsCriterion)
     }
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

@@ -43,7 +43,7 @@ TEST_F(HistoryFile, ResumedOneDropsRowsAfterTheCheckpoint)
             add(history, time, 1.0);
         history.flush();
     }
-    std::ofstream(folder / "history.csv", std::ios::app) << "0.2,1";  // a row that a kill cut off
+    std::ofstream(folder / "history.csv", std::ios::app) << "0.2,1"; // a row that a kill cut off
     History history(folder / "history.csv", columns, checkpoint_time);
     EXPECT_EQ(text(), "time_s,kinetic_energy_J\n0.1,1\n0.30000000000000004,1\n");
     add(history, 0.4, 2.0);
@@ -55,7 +55,9 @@ TEST_F(HistoryFile, ResumedOneWithOtherColumnsOrNoneIsRefused)
 {
     EXPECT_TRUE(one_line_with(message_of<OutputError>([&] { History(folder / "history.csv", columns, 0.0); }),
                               {"history.csv", "not there"}));
-    { const History history(folder / "history.csv", {"time_s", "mass_kg"}); }
+    {
+        const History history(folder / "history.csv", {"time_s", "mass_kg"});
+    }
     EXPECT_TRUE(one_line_with(message_of<OutputError>([&] { History(folder / "history.csv", columns, 0.0); }),
                               {"history.csv", "other columns"}));
 }
@@ -97,4 +99,4 @@ TEST_F(HistoryFile, VanishedFolderIsReported)
     EXPECT_TRUE(one_line_with(message_of<OutputError>([&] { history.flush(); }), {"history.csv", "not there"}));
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

@@ -49,10 +49,11 @@ inline void register_fields(Particles& particles)
 inline void fill_particles(Particles& particles, unsigned seed)
 {
     std::mt19937_64 generator(seed);
-    const auto value = [&] { return std::ldexp(static_cast<double>(generator() >> 11U), static_cast<int>(generator() % 80) - 90); };
+    const auto value = [&] {
+        return std::ldexp(static_cast<double>(generator() >> 11U), static_cast<int>(generator() % 80) - 90);
+    };
     const auto count = static_cast<std::size_t>(particles.count());
-    const auto fill = [&](Array& values)
-    {
+    const auto fill = [&](Array& values) {
         for (std::size_t k = 0; k < count; ++k)
             values[k] = value();
     };
@@ -61,8 +62,7 @@ inline void fill_particles(Particles& particles, unsigned seed)
     for (const auto& field : particles.vectors())
         for (Array* component : {&field->x, &field->y, &field->z})
             fill(*component);
-    for (std::size_t k = 0; k < count; ++k)
-    {
+    for (std::size_t k = 0; k < count; ++k) {
         particles.kind[k] = k >= 3 * count / 4 ? Kind::wall : (k % 3 == 0 ? Kind::solid : Kind::fluid);
         particles.material[k] = k >= count / 2 && k < 3 * count / 4 ? 1 : 0;
         particles.identity[k] = static_cast<Index>(count - 1 - k);
@@ -84,8 +84,7 @@ inline bool same_particles(const Particles& one, const Particles& other)
                 one.vectors().size() == other.vectors().size();
     for (const auto& field : one.scalars())
         same = same && same_bits(field->values, other.scalar(field->info.name).values);
-    for (const auto& field : one.vectors())
-    {
+    for (const auto& field : one.vectors()) {
         const VectorField& counterpart = other.vector(field->info.name);
         same = same && same_bits(field->x, counterpart.x) && same_bits(field->y, counterpart.y) &&
                same_bits(field->z, counterpart.z);
@@ -115,15 +114,12 @@ private:
 };
 
 /// The text of the exception that a call throws; empty where it throws none of this type.
-template <class Error, class Call>
-std::string message_of(Call&& call)
+template <class Error, class Call> std::string message_of(Call&& call)
 {
-    try
-    {
+    try {
         call();
     }
-    catch (const Error& error)
-    {
+    catch (const Error& error) {
         return error.what();
     }
     return {};
@@ -140,4 +136,4 @@ inline ::testing::AssertionResult one_line_with(const std::string& text, std::in
     return ::testing::AssertionSuccess();
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

@@ -32,7 +32,7 @@ RunRecord some_record()
     return record;
 }
 
-}  // namespace
+} // namespace
 
 using RunRecordFile = OutputTest;
 
@@ -86,7 +86,7 @@ TEST_F(RunRecordFile, CostOfThePartsOfARunAddsUp)
     cost.measure(meter);
     EXPECT_GE(cost.wall_seconds, 1000.03);
     EXPECT_LT(cost.wall_seconds, 1010.0);
-    EXPECT_GT(cost.cpu_seconds, 2000.005);  // most of the 30 ms, even on a busy machine
+    EXPECT_GT(cost.cpu_seconds, 2000.005); // most of the 30 ms, even on a busy machine
     EXPECT_LT(cost.cpu_seconds, 2010.0);
     EXPECT_GT(cost.peak_bytes, 1e6);
 }
@@ -201,4 +201,4 @@ TEST(StopSignals, SetTheFlagAndEndTheProgramTheThirdTime)
         ::testing::KilledBySignal(SIGINT), "");
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

@@ -28,7 +28,7 @@ vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& file)
     return reader->GetOutput();
 }
 
-}  // namespace
+} // namespace
 
 class VtkFiles : public OutputTest
 {
@@ -47,7 +47,7 @@ TEST_F(VtkFiles, AllButTheWallsAreReadBackByVtk)
 {
     write_snapshot(folder / "a.vtp", particles, 0.25, some_provenance());
     const auto data = read(folder / "a.vtp");
-    const vtkIdType written = 3 * count / 4;  // the last quarter are walls
+    const vtkIdType written = 3 * count / 4; // the last quarter are walls
     ASSERT_EQ(data->GetNumberOfPoints(), written);
     EXPECT_EQ(data->GetNumberOfVerts(), written);
     EXPECT_EQ(data->GetPoints()->GetDataType(), VTK_DOUBLE);
@@ -57,8 +57,7 @@ TEST_F(VtkFiles, AllButTheWallsAreReadBackByVtk)
     ASSERT_TRUE(velocity && temperature && fraction);
     EXPECT_EQ(velocity->GetNumberOfComponents(), 3);
     EXPECT_EQ(temperature->GetDataType(), VTK_FLOAT);
-    for (vtkIdType k = 0; k < written; ++k)
-    {
+    for (vtkIdType k = 0; k < written; ++k) {
         const auto i = static_cast<Index>(k);
         double point[3];
         data->GetPoint(k, point);
@@ -66,7 +65,7 @@ TEST_F(VtkFiles, AllButTheWallsAreReadBackByVtk)
         EXPECT_EQ(point[2], particles.position[i].z);
         EXPECT_EQ(velocity->GetComponent(k, 1), static_cast<float>(particles.velocity[i].y));
         EXPECT_EQ(temperature->GetComponent(k, 0), static_cast<float>(particles.scalar("temperature")[i]));
-        EXPECT_EQ(fraction->GetComponent(k, 0), i < count / 2 ? 1.0 : 0.0);  // the second half is of material 1
+        EXPECT_EQ(fraction->GetComponent(k, 0), i < count / 2 ? 1.0 : 0.0); // the second half is of material 1
     }
 }
 
@@ -87,8 +86,7 @@ TEST_F(VtkFiles, BearTimeCodeAndCase)
     auto* fields = data->GetFieldData();
     ASSERT_TRUE(fields->GetArray("TimeValue"));
     EXPECT_EQ(fields->GetArray("TimeValue")->GetComponent(0, 0), 0.25);
-    const auto text = [&](const char* name)
-    {
+    const auto text = [&](const char* name) {
         auto* array = vtkStringArray::SafeDownCast(fields->GetAbstractArray(name));
         return array ? std::string(array->GetValue(0)) : std::string();
     };
@@ -102,7 +100,8 @@ TEST_F(VtkFiles, AreCompressed)
     for (const auto& field : particles.scalars())
         std::fill(field->values.begin(), field->values.end(), 1.0);
     write_snapshot(folder / "a.vtp", particles, 0.0, some_provenance());
-    // 750 particles of 3 doubles and 11 floats are 51 kB; the random positions (18 kB) and vectors (18 kB) hardly shrink.
+    // 750 particles of 3 doubles and 11 floats are 51 kB; the random positions (18 kB) and vectors (18 kB) hardly
+    // shrink.
     EXPECT_LT(std::filesystem::file_size(folder / "a.vtp"), 45'000U);
     EXPECT_NE(read_whole(folder / "a.vtp").find("compressor=\"vtkZLibDataCompressor\""), std::string::npos);
 }
@@ -129,7 +128,7 @@ TEST_F(VtkFiles, ResumedSeriesDropsWhatCameLaterAndGoesOn)
     VtkSeries series(folder, some_provenance(), 0.2);
     EXPECT_EQ(series.size(), 3U);
     EXPECT_FALSE(std::filesystem::exists(folder / "fields_000003.vtp"));
-    series.write(particles, 0.2);  // again, as the checkpoint was written just before this snapshot
+    series.write(particles, 0.2); // again, as the checkpoint was written just before this snapshot
     EXPECT_EQ(series.size(), 3U);
     series.write(particles, 0.35);
     const std::string list = read_whole(folder / "fields.pvd");
@@ -152,4 +151,4 @@ TEST_F(VtkFiles, FullDiskLeavesTheSeriesReadable)
     EXPECT_EQ(read_whole(folder / "fields.pvd").find("fields_000001"), std::string::npos);
 }
 
-}  // namespace cupel::test
+} // namespace cupel::test

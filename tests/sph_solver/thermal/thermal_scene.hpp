@@ -1,8 +1,11 @@
 /// Small scenes of heat, built by hand: a lattice block of one material, jittered on request.
 #pragma once
 
+#include <omp.h>
+
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <random>
 #include <vector>
@@ -80,6 +83,8 @@ inline Scene lattice_scene(const Case& definition, const Vector& lower, const Ve
                 if (keep(p))
                     points.push_back({p.x + shift(), flat ? 0.0 : p.y + shift(), p.z + shift()});
             }
+    // Threads would spend more time waiting for each other than working in scenes of a few hundred particles.
+    omp_set_num_threads(points.size() < 3000 ? 1 : omp_get_num_procs());
     Scene scene;
     scene.definition = definition;
     scene.spacing = dx;

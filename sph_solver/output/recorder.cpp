@@ -1,0 +1,298 @@
+#include "output/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/pair_loop.hpp"
+#include "output/run_log.hpp"
+#include "output/signals.hpp"
+
+namespace cupel
+{
+
+namespace
+{
+
+/// Steps after which a run settles: the places where a checkpoint can be, whatever the clock says.
+constexpr std::uint64_t steps_between_settling = 50;
+constexpr std::uint64_t steps_between_guards = 10;
+constexpr double seconds_between_checkpoints = 60.0;
+
+/// Density may err by this before the run is called broken; a weakly compressible run stays near 1 %.
+constexpr double greatest_density_error = 0.25;
+
+GuardLimits guard_limits(const Simulation& simulation)
+{
+    const Case& definition = simulation.scene().definition;
+    GuardLimits limits;
+    for (const Material& material : simulation.scene().materials)
+        limits.density.push_back(
+            {(1.0 - greatest_density_error) * material.density, (1.0 + greatest_density_error) * material.density});
+    if (simulation.flow()) {
+        limits.sound_speed = simulation.parameters().equation_of_state.sound_speed;
+        double smallest = simulation.limits().at("acoustic");
+        for (const auto& [name, limit] : simulation.limits())
+            smallest = std::min(smallest, limit);
+        limits.smallest_time_step = 1e-4 * smallest;
+    }
+    if (simulation.heat()) {
+        limits.lowest_temperature = simulation.heat()->lowest_possible_temperature() - 1.0;
+        limits.highest_temperature = 20000.0;
+    }
+    // Beyond an open side a particle may fly; beyond a wall it has gone through it.
+    const auto margin = [&](std::size_t side) {
+        const auto& boundary = definition.domain.boundaries[side];
+        const bool open = boundary && boundary->kind == BoundaryKind::open;
+        return open ? std::numeric_limits<double>::infinity() : 1.0 * definition.spacing;
+    };
+    const auto& lower = definition.domain.lower;
+    const auto& upper = definition.domain.upper;
+    limits.lower = {lower[0] - margin(0), lower[1] - margin(2), lower[2] - margin(4)};
+    limits.upper = {upper[0] + margin(1), upper[1] + margin(3), upper[2] + margin(5)};
+    if (definition.dimensions == 2) {
+        limits.lower.y = -definition.spacing;
+        limits.upper.y = definition.spacing;
+    }
+    return limits;
+}
+
+std::vector<std::string> history_columns(const Simulation& simulation)
+{
+    std::vector<std::string> columns{"time_s", "step", "time_step_s", "moving_particles"};
+    if (simulation.flow())
+        columns.insert(columns.end(), {"kinetic_energy_J", "greatest_speed_m/s", "mass_kg", "volume_m3"});
+    if (simulation.heat())
+        columns.insert(columns.end(),
+                       {"stored_energy_J", "laser_absorbed_J", "lost_energy_J", "highest_temperature_K"});
+    return columns;
+}
+
+} // namespace
+
+Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
+    : simulation_(simulation), options_(options), folder_(open_run_folder(options.folder, options.resume)),
+      log_(open_run_log(folder_.log(), options.resume)), provenance_{code_identity(),
+                                                                     simulation.scene().definition.name,
+                                                                     simulation.scene().definition.hash,
+                                                                     simulation.scene().definition.resolved.dump()}
+{
+    guards_.emplace(simulation_.particles(), guard_limits(simulation_));
+    checkpoints_.emplace(folder_.checkpoints(), provenance_,
+                         std::chrono::duration<double>(seconds_between_checkpoints));
+    const auto checkpoint = options.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
+    if (checkpoint)
+        resume(*checkpoint);
+    else
+        begin();
+    announce();
+}
+
+void Recorder::begin()
+{
+    simulation_.start();
+    fields_.emplace(folder_.fields(), provenance_);
+    history_.emplace(folder_.history(), history_columns(simulation_));
+    progress_.emplace(simulation_.scene().definition.time.end);
+    cost_.emplace();
+    const double mass = total_mass(), volume = primary_volume();
+    mass_ = {mass, mass, 0.0, 0.0, mass};
+    volume_ = {volume, volume, 0.0, 0.0, volume};
+    add_history_row();
+    write_snapshot_now();
+}
+
+void Recorder::resume(const std::filesystem::path& file)
+{
+    const LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
+    const auto& numbers = loaded.state.numbers;
+    simulation_.load(numbers);
+    simulation_.settle();
+    mass_ = load_ledger("mass", numbers);
+    volume_ = load_ledger("volume", numbers);
+    greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");
+    next_output_ = static_cast<std::uint64_t>(numbers.at("recorder.next_output"));
+    const double wall = numbers.at("recorder.wall_s"), cpu = numbers.at("recorder.cpu_s");
+    fields_.emplace(folder_.fields(), provenance_, simulation_.time());
+    history_.emplace(folder_.history(), history_columns(simulation_), simulation_.time());
+    progress_.emplace(simulation_.scene().definition.time.end, wall);
+    cost_.emplace(wall, cpu);
+    log_->info("resumed from {} at t = {:.6g} s, step {}", file.filename().string(), simulation_.time(),
+               simulation_.steps());
+    if (simulation_.time() >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
+}
+
+/// What was derived from the case, so that a reader of the log sees which numbers the run had.
+void Recorder::announce() const
+{
+    const Scene& scene = simulation_.scene();
+    log_->info("case {} at level {}: {} particles, spacing {:.4g} m, {} threads", scene.definition.name,
+               scene.definition.level, scene.particles->count(), scene.spacing, options_.threads);
+    if (simulation_.flow()) {
+        const FlowParameters& parameters = simulation_.parameters();
+        log_->info("greatest expected speed {:.4g} m/s (from {}), sound speed {:.4g} m/s", parameters.reference_speed,
+                   parameters.reference_speed_from, parameters.equation_of_state.sound_speed);
+    }
+    for (const auto& [name, limit] : simulation_.limits())
+        log_->info("time step limit {}: {:.4g} s", name, limit);
+    if (simulation_.heat()) log_->info("time step limit thermal: {:.4g} s", simulation_.heat()->stable_time_step());
+}
+
+double Recorder::output_time(std::uint64_t number) const
+{
+    const TimeSpan& time = simulation_.scene().definition.time;
+    const double due = static_cast<double>(number) * time.output_interval;
+    // The last interval may be shorter; one that would end within a hair of the end ends with it.
+    return due > time.end - 1e-9 * time.output_interval ? time.end : due;
+}
+
+double Recorder::longest_step() const
+{
+    return output_time(next_output_) - simulation_.time();
+}
+
+void Recorder::after_step()
+{
+    const std::uint64_t steps = simulation_.steps();
+    if (const auto problem =
+            guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time());
+        problem && simulation_.last_binding() != "output")
+        return stop(*problem);
+    const bool output_due = simulation_.last_binding() == "output";
+    if (steps % steps_between_guards == 0 || output_due)
+        if (const auto problem = guards_->check(simulation_.time())) return stop(*problem);
+    if (output_due) {
+        write_snapshot_now();
+        if (output_time(next_output_) >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
+        ++next_output_;
+    }
+    if (steps % steps_between_settling == 0) {
+        simulation_.settle();
+        add_history_row();
+        if (!ending_ && (stop_requested() || checkpoints_->due())) write_checkpoint();
+        if (!ending_ && stop_requested()) ending_ = Ending::interrupted;
+    }
+    progress_->update(simulation_.time(), steps);
+}
+
+void Recorder::write_snapshot_now()
+{
+    // Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
+    Particles& particles = simulation_.particles();
+    const ScalarField& mobility = particles.scalar("mobility");
+    for (Index i = 0; i < particles.count(); ++i)
+        if (mobility[i] == 0.0) particles.velocity.set(i, {});
+    fields_->write(particles, simulation_.time());
+}
+
+void Recorder::write_checkpoint()
+{
+    RunState state;
+    state.time = simulation_.time();
+    state.step = simulation_.steps();
+    simulation_.save(state.numbers);
+    save_ledger("mass", mass_, state.numbers);
+    save_ledger("volume", volume_, state.numbers);
+    state.numbers["recorder.greatest_volume_error"] = greatest_volume_error_;
+    state.numbers["recorder.next_output"] = static_cast<double>(next_output_);
+    state.numbers["recorder.wall_s"] = cost_->wall_seconds();
+    state.numbers["recorder.cpu_s"] = cost_->cpu_seconds();
+    history_->flush();
+    checkpoints_->write(simulation_.particles(), state);
+}
+
+double Recorder::total_mass() const
+{
+    const Particles& particles = simulation_.particles();
+    return ordered_sum(particles.count(), [&](Index i) {
+        return particles.kind[static_cast<std::size_t>(i)] == Kind::wall ? 0.0 : particles.mass[i];
+    });
+}
+
+double Recorder::primary_volume() const
+{
+    const Particles& particles = simulation_.particles();
+    return ordered_sum(particles.count(), [&](Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        const bool counts = particles.kind[k] != Kind::wall && particles.material[k] == 0;
+        return counts ? particles.volume[i] : 0.0;
+    });
+}
+
+void Recorder::add_history_row()
+{
+    const Particles& particles = simulation_.particles();
+    std::vector<double> row{simulation_.time(), static_cast<double>(simulation_.steps()), simulation_.last_time_step(),
+                            static_cast<double>(simulation_.neighbourhood().moving_particles().size())};
+    if (simulation_.flow()) {
+        const auto& moving = simulation_.neighbourhood().moving_particles();
+        double greatest = 0.0;
+        for (const Index i : moving)
+            greatest = std::max(greatest, dot(particles.velocity[i], particles.velocity[i]));
+        const double kinetic = ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+            const Index i = moving[static_cast<std::size_t>(m)];
+            const Vector v = particles.velocity[i];
+            return 0.5 * particles.mass[i] * dot(v, v);
+        });
+        mass_.end = total_mass();
+        volume_.end = primary_volume();
+        greatest_volume_error_ =
+            std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
+        row.insert(row.end(), {kinetic, std::sqrt(greatest), mass_.end, volume_.end});
+    }
+    if (const ThermalStep* heat = simulation_.heat()) {
+        const HeatBooks& books = heat->books();
+        row.insert(row.end(),
+                   {heat->stored_energy(), books.laser_absorbed, books.evaporation + books.radiation + books.convection,
+                    heat->temperature_range().highest});
+    }
+    history_->add(row);
+}
+
+void Recorder::stop(const Diagnosis& diagnosis)
+{
+    diagnosis_ = diagnosis.line();
+    log_->error("{}", diagnosis_);
+    write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
+    ending_ = Ending::stopped;
+}
+
+Ending Recorder::finish()
+{
+    add_history_row();
+    history_->flush();
+    progress_->write(simulation_.time(), simulation_.steps());
+    if (*ending_ == Ending::interrupted) {
+        log_->warn("interrupted at t = {:.6g} s; a checkpoint is kept, go on with --resume", simulation_.time());
+        return *ending_;
+    }
+    RunRecord record;
+    record.provenance = provenance_;
+    record.settings = simulation_.scene().definition.resolved;
+    record.variant = options_.folder.filename().string();
+    record.status = *ending_ == Ending::completed ? RunStatus::completed : RunStatus::stopped;
+    record.diagnosis = diagnosis_;
+    record.ledgers["mass"] = mass_;
+    record.ledgers["volume"] = volume_;
+    record.ledger_details["volume"]["greatest_error"] = greatest_volume_error_;
+    if (const ThermalStep* heat = simulation_.heat()) {
+        record.ledgers["energy"] = heat->ledger();
+        const HeatBooks& books = heat->books();
+        record.ledger_details["energy"] = {
+            {"laser_emitted", books.laser_emitted},   {"laser_hit", books.laser_hit},
+            {"laser_absorbed", books.laser_absorbed}, {"absorbed_error", heat->laser_absorption_error()},
+            {"evaporation", books.evaporation},       {"radiation", books.radiation},
+            {"convection", books.convection}};
+    }
+    record.cost.threads = options_.threads;
+    record.cost.steps = simulation_.steps();
+    record.cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
+    record.cost.element_updates = static_cast<double>(simulation_.updates());
+    record.cost.time_step_binding = simulation_.binding_limits();
+    record.cost.measure(*cost_);
+    write_record(folder_.record(), record);
+    log_->info("{} after {} steps, {:.1f} CPU s", *ending_ == Ending::completed ? "completed" : "stopped",
+               simulation_.steps(), record.cost.cpu_seconds);
+    return *ending_;
+}
+
+} // namespace cupel

@@ -1,0 +1,102 @@
+"""Short real runs against exact solutions: conduction, melting front, pressure in a drop, shadow, cold powder."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.reference_openfoam import small_cases
+
+
+def test_stefan_front_with_one_melting_point_moves_as_two_beta_root_alpha_t(tmp_path):
+    # 304L liquid, wall 300 K above the melting point: St = c 300/L = 0.947, beta e^(beta^2) erf(beta) = St/sqrt(pi) -> 0.60693
+    length, spacing, melting = 4e-4, 5e-6, 1723.0
+    liquid = small_cases.STEEL | {"specific_heat_solid": 780.0, "conductivity_solid": 18.14, "solidus": melting, "liquidus": melting}
+    diffusivity = 18.14/(6900*780)
+    end = (0.75*length/(2*0.60693))**2/diffusivity
+    data = small_cases.case(
+        spacing=spacing, physics=["heat", "melting"], materials={"steel": liquid},
+        domain={"lower": [0.0, 0.0, 0.0], "upper": [length, spacing, spacing],
+                "boundaries": small_cases.boundaries(x_min={"kind": "wall", "slip": "no_slip", "temperature": melting + 300})},
+        initial={"temperature": melting - 0.06, "temperature_gradient": [0.0, 0.0, 0.0]},
+        bodies=[{"shape": "box", "material": "steel", "state": "solid", "lower": [0.0, 0.0, 0.0], "upper": [length, spacing, spacing]}],
+        time={"end": end, "output_interval": end})
+    record = small_cases.completed(data, tmp_path)
+    fields, _ = small_cases.last_fields(data, tmp_path)
+    front = fields["liquid_fraction"].sum()*spacing
+    assert front == pytest.approx(0.75*length, rel=0.01)         # 60 cells behind the front: half a cell is 0.8 %
+    assert record["ledgers"]["energy"]["closure"] < 1e-6
+
+
+def test_a_moving_gaussian_source_heats_as_the_exact_integral_says(tmp_path):
+    density, heat, conductivity = 6900.0, 780.0, 25.0
+    power, radius, speed, time = 150.0, 8e-5, 0.15, 1.2e-3
+    data = small_cases.case(
+        spacing=2e-5, physics=["heat", "laser"],
+        materials={"steel": {"density": density, "specific_heat": heat, "conductivity": conductivity}},
+        domain={"lower": [0.0, -4e-4, -4e-4], "upper": [7e-4, 4e-4, 0.0], "boundaries": small_cases.boundaries()},
+        bodies=[{"shape": "box", "material": "steel", "state": "solid", "lower": [0.0, -4e-4, -4e-4], "upper": [7e-4, 4e-4, 0.0]}],
+        laser={"power": power, "speed": speed, "spot_radius": radius, "absorptivity": 0.35, "start": 0.0,
+               "path": {"from": [3e-4, 0.0], "to": [6e-4, 0.0]}},
+        time={"end": time, "output_interval": time})
+    record = small_cases.completed(data, tmp_path)
+    fields, centres = small_cases.last_fields(data, tmp_path)
+    hot = fields["temperature"] > 900
+    x, y, z = centres[hot].T
+    # T - T0 = (A P/rho c) int_0^t (pi a s)^(-1/2) exp(-z^2/4as) exp(-[(x - x_laser + v s)^2 + y^2]/(2 S)) / (2 pi S) ds, S = r0^2/4 + 2 a s
+    a = conductivity/(density*heat)
+    roots, weights = np.polynomial.legendre.leggauss(200)
+    root_time = 0.5*np.sqrt(time)*(roots + 1)                    # s = root_time^2 takes the singularity out
+    exact = np.full(len(x), 300.0)
+    for r, w in zip(root_time, weights*0.5*np.sqrt(time)):
+        s, spread = r*r, radius**2/4 + 2*a*r*r
+        exact += (0.35*power/(density*heat)*2*w/np.sqrt(np.pi*a)*np.exp(-z**2/(4*a*s))
+                  * np.exp(-((x - 3e-4 - speed*time + speed*s)**2 + y**2)/(2*spread))/(2*np.pi*spread))
+    error = np.linalg.norm(fields["temperature"][hot] - exact)/np.linalg.norm(exact - 300)
+    assert error < 0.02                                           # second order in space at four cells a spot radius
+    assert record["ledgers"]["energy"]["closure"] < 1e-9
+    assert record["ledgers"]["energy"]["absorbed_error"] < 1e-9
+
+
+def test_pressure_in_a_disc_at_rest_is_tension_over_radius_and_spurious_speeds_are_small(tmp_path):
+    radius, tension, viscosity = 1e-3, 0.05, 0.01
+    data = small_cases.case(
+        spacing=1.25e-4, dimensions=2, physics=["flow", "surface_tension"],
+        materials={"oil": {"density": 1000.0, "viscosity": viscosity, "surface_tension": tension}, "gas": {"density": 1000.0, "viscosity": viscosity}},
+        surrounding={"material": "gas", "resolved": True, "temperature": 300.0, "pressure": 101325.0, "convection_coefficient": 0.0},
+        domain={"lower": [-2e-3, 0.0, -2e-3], "upper": [2e-3, 0.0, 2e-3],
+                "boundaries": {side: small_cases.WALL for side in ("x_min", "x_max", "z_min", "z_max")}},
+        bodies=[{"shape": "sphere", "material": "oil", "state": "liquid", "center": [0.0, 0.0, 0.0], "radius": radius}],
+        time={"end": 0.02, "output_interval": 0.02})
+    record = small_cases.completed(data, tmp_path)
+    fields, centres = small_cases.last_fields(data, tmp_path)
+    distance = np.hypot(centres[:, 0], centres[:, 2])
+    jump = fields["pressure"][distance < 0.5*radius].mean() - fields["pressure"][distance > 1.6*radius].mean()
+    assert jump == pytest.approx(tension/radius, rel=0.03)
+    capillary_number = viscosity*np.linalg.norm(fields["velocity"], axis=1).max()/tension
+    assert capillary_number < 1e-3
+    assert record["ledgers"]["volume"]["closure"] < 1e-10
+
+
+def test_a_grain_shadows_the_plate_below_it(tmp_path):
+    # a grain that floats two cells above the plate, wider than the corridor of cells looked at below it
+    data = small_cases.grain_on_plate(physics=["heat", "melting", "laser"], time={"end": 2e-6, "output_interval": 2e-6})
+    data["bodies"][1] |= {"center": [1.6e-4, 0.0, 8e-5], "radius": 4e-5}
+    record = small_cases.completed(data, tmp_path)
+    fields, centres = small_cases.last_fields(data, tmp_path)
+    surface = (centres[:, 2] > -2e-5) & (centres[:, 2] < 0)
+    from_axis = np.hypot(centres[:, 0] - 1.6e-4, centres[:, 1])
+    assert fields["temperature"][surface & (from_axis < 2.2e-5)].max() < 300.5     # conduction in 2 us reaches no further
+    assert fields["temperature"][surface & (from_axis > 5e-5) & (from_axis < 6e-5)].min() > 305
+    assert record["ledgers"]["energy"]["absorbed_error"] < 1e-9
+
+
+def test_cold_powder_stays_where_it_is(tmp_path):
+    data = small_cases.grain_on_plate(time={"end": 1e-4, "output_interval": 1e-4})
+    data["laser"]["start"] = 1.0
+    record = small_cases.completed(data, tmp_path)
+    fields, _ = small_cases.last_fields(data, tmp_path)
+    metal = fields["fraction"] > 0.5
+    assert np.linalg.norm(fields["velocity"][metal], axis=1).max() < 1e-6
+    assert record["ledgers"]["energy"]["laser_absorbed"] == 0
+    assert np.abs(fields["temperature"] - 300).max() < 1e-3

@@ -1,0 +1,126 @@
+"""The command line around the solver: progress, interruption, resumption, refusal, divergence."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from tests.reference_openfoam import small_cases
+
+
+def start(data, folder):
+    (folder/"resolved.json").write_text(json.dumps(data))
+    return subprocess.Popen([sys.executable, "-m", "reference_openfoam", "run", str(folder/"resolved.json"), "--output", str(folder/"result")],
+                            env=os.environ | {"PYTHONPATH": str(small_cases.ROOT)}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory):
+    """A grain on a plate, run in one go: (case, folder, run.json, standard output)."""
+    folder = tmp_path_factory.mktemp("unbroken")
+    data = small_cases.grain_on_plate()
+    result = small_cases.solve(data, folder)
+    assert result.returncode == 0, result.stderr
+    return data, folder, json.loads((folder/"result"/"run.json").read_text()), result.stdout
+
+
+def test_energy_ledger_closes_and_absorbed_power_is_a_times_p(unbroken):
+    _, folder, record, _ = unbroken
+    energy = record["ledgers"]["energy"]
+    assert energy["closure"] < 1e-6
+    assert energy["absorbed_error"] < 1e-9
+    # the beam's foot is 3.2 x 3.2 spot radii: nearly all of A P = 52.5 W meets the plate or the grain
+    assert energy["laser_absorbed"] == pytest.approx(0.35*150*6e-5, rel=3e-3)
+    assert np.all(small_cases.history(folder)["absorbed_power_W"][1:] > 52.0)
+
+
+def test_volume_is_kept_and_melting_begins(unbroken):
+    data, folder, record, _ = unbroken
+    assert record["ledgers"]["volume"]["closure"] < 1e-9
+    fields, _ = small_cases.last_fields(data, folder)
+    assert fields["peak_temperature"].max() > 1673 and fields["fraction"].min() >= 0 and fields["fraction"].max() <= 1
+    assert set(fields) == {"temperature", "velocity", "volume", "fraction", "liquid_fraction", "peak_temperature", "pressure", "density"}
+
+
+def test_progress_is_one_json_object_a_line_and_snapshots_are_a_series(unbroken):
+    _, folder, _, output = unbroken
+    lines = [json.loads(line)["progress"] for line in output.splitlines()]
+    assert lines and set(lines[0]) == {"time", "end", "step", "wall_s"}
+    names = sorted(path.name for path in (folder/"result"/"fields").iterdir())
+    assert names == ["fields.pvd"] + [f"fields_{index:06d}.vtu" for index in range(4)]
+
+
+def test_an_interrupted_run_leaves_a_checkpoint_and_resumes_to_the_same_result(unbroken, tmp_path):
+    data, folder, record, _ = unbroken
+    process = start(data, tmp_path)
+    limit = time.monotonic() + 60
+    while not (tmp_path/"result"/"fields"/"fields_000000.vtu").exists() and time.monotonic() < limit:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert not (tmp_path/"result"/"run.json").exists()
+    resumed = small_cases.completed(data, tmp_path, "--resume")
+    ours, _ = small_cases.last_fields(data, tmp_path)
+    theirs, _ = small_cases.last_fields(data, folder)
+    # the broken run takes other steps around the break, so the two agree to the error of a time step, not to the digit
+    assert np.abs(ours["temperature"] - theirs["temperature"]).max() < 30
+    assert resumed["ledgers"]["energy"]["laser_absorbed"] == pytest.approx(record["ledgers"]["energy"]["laser_absorbed"], rel=1e-9)
+    assert resumed["ledgers"]["energy"]["closure"] < 1e-6
+
+
+def test_a_truncated_checkpoint_is_refused_in_one_line(unbroken, tmp_path):
+    data, folder, _, _ = unbroken
+    subprocess.run(["cp", "-r", str(folder/"result"), str(tmp_path/"result")], check=True)
+    newest = max((path for path in (tmp_path/"result"/"checkpoints").iterdir() if path.name[0].isdigit()), key=lambda path: float(path.name))
+    (newest/"T").write_bytes((newest/"T").read_bytes()[:-100])
+    result = small_cases.solve(data, tmp_path, "--resume")
+    assert result.returncode == 2
+    assert "truncated" in result.stderr and len(result.stderr.splitlines()) == 1
+
+
+def test_resuming_with_other_settings_is_refused(unbroken, tmp_path):
+    _, folder, _, _ = unbroken
+    other = small_cases.grain_on_plate(time={"end": 9e-5, "output_interval": 2e-5})
+    subprocess.run(["cp", "-r", str(folder/"result"), str(tmp_path/"result")], check=True)
+    result = small_cases.solve(other, tmp_path, "--resume")
+    assert result.returncode == 2 and "other settings" in result.stderr
+
+
+@pytest.mark.parametrize("header, row, message", [
+    ("x_m,y_m,z_m,radius_m", "0,0,0,-1e-5", "bed.csv:2: the radius is not above 0"),
+    ("x_m,y_m,z_m,radius_m", "0,0,zero,1e-5", "bed.csv:2: must be four numbers"),
+    ("x,y,z", "0,0,0", "bed.csv:1: the header must be"),
+])
+def test_a_broken_bed_ends_in_one_line_and_writes_nothing(tmp_path, header, row, message):
+    (tmp_path/"bed.csv").write_text(f"{header}\n{row}\n")
+    data = small_cases.grain_on_plate()
+    data["bodies"][1] = {"shape": "powder_bed", "material": "steel", "state": "solid", "file": str(tmp_path/"bed.csv"),
+                         "lower": [0, 0, 0], "upper": [1, 1, 1]}
+    result = small_cases.solve(data, tmp_path)
+    assert result.returncode == 2 and message in result.stderr and len(result.stderr.splitlines()) == 1
+    assert not (tmp_path/"result").exists()
+
+
+def test_a_folder_that_cannot_be_written_ends_in_one_line(tmp_path):
+    (tmp_path/"result").write_text("a file where the folder should be")
+    result = small_cases.solve(small_cases.grain_on_plate(), tmp_path)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1
+
+
+def test_a_beam_that_the_mesh_cannot_bear_is_stopped_with_a_diagnosis(tmp_path):
+    data = small_cases.grain_on_plate(physics=["heat", "melting", "evaporation", "laser"])
+    data["laser"]["power"] = 1e6
+    result = small_cases.solve(data, tmp_path)
+    assert result.returncode == 1
+    record = json.loads((tmp_path/"result"/"run.json").read_text())
+    assert record["status"] == "stopped"
+    assert "three times the boiling temperature" in record["diagnosis"] and "refine it or lower the power" in record["diagnosis"]
+    assert len(result.stderr.splitlines()) == 1
