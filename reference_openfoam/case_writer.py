@@ -18,7 +18,8 @@ NUMERICS = {
     "courant_limit": 0.5,
     "interface_courant_limit": 0.3,
     "interface_compression": 1.0,
-    "curvature_smoothing_passes": 2,
+    "height_functions": True,
+    "curvature_smoothing_passes": 4,
     "curvature_averaging_passes": 1,
     "mushy_drag_constant": 1e13,
     "momentum_predictor": False,
@@ -41,7 +42,7 @@ def write_case(case: ResolvedCase, folder: Path, grid: Grid | None = None) -> Gr
     write_mesh(grid, patch_types(case), folder)
     _write_start_fields(case, grid, fraction, folder/"0")
     _write_properties(case, folder)
-    _write_system(folder)
+    _write_system(folder, "flow" in case.physics)
     return grid
 
 
@@ -165,8 +166,9 @@ def _write_properties(case: ResolvedCase, folder: Path) -> None:
             header("uniformDimensionedVectorField", "g") + f"dimensions [0 1 -2 0 0 0 0];\nvalue {gravity};\n")
 
 
-def _write_system(folder: Path) -> None:
-    """Control, schemes and linear solvers: the same for every case."""
+def _write_system(folder: Path, flow: bool) -> None:
+    """Control, schemes and linear solvers: the same for every case (without flow the energy matrix is symmetric)."""
+    energy = {"solver": "PBiCGStab", "preconditioner": "DILU"} if flow else {"solver": "PCG", "preconditioner": "DIC"}
     system = folder/"system"
     # the solver keeps its own clock: OpenFOAM's end and write times never come
     write_dictionary(system/"controlDict", {
@@ -190,5 +192,5 @@ def _write_system(folder: Path) -> None:
             "p_rgh": pressure,
             "p_rghFinal": pressure | {"relTol": 0.0},
             "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},
-            "T": {"solver": "PBiCGStab", "preconditioner": "DILU", "tolerance": 1e-12, "relTol": 1e-3}},
+            "T": energy | {"tolerance": 1e-12, "relTol": 1e-3}},
         "PISO": {"p_rghRefCell": 0, "p_rghRefValue": 0}})

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 from . import case_writer, checkpoints, run_record
 from .convert import SnapshotWriter, snapshot_index
@@ -67,10 +72,12 @@ def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False
             raise Refused(f"{output}: cannot be written: {error.strerror}") from None
     (output/"run.json").unlink(missing_ok=True)
     (case_folder/"outcome.json").unlink(missing_ok=True)
-    if threads > 1:
-        print(f"reference_openfoam: runs on one core, not on {threads}", file=sys.stderr)
     snapshots = SnapshotWriter(case, grid, output/"fields")
-    return _supervise(case, program, output, case_folder, snapshots, append=resume)
+    with open(output/"log.txt", "a" if resume else "w", encoding="utf-8") as log:
+        if threads > 1:
+            log.write(f"{threads} threads were offered; this solver runs on one core\n")
+        with _plain_path(case_folder) as plain:
+            return _supervise(case, [str(program), "-case", str(plain)], output, case_folder, snapshots, log)
 
 
 def _clear(output: Path) -> None:
@@ -101,38 +108,50 @@ def _cut_history(path: Path, start: float) -> None:
     path.write_text("\n".join(lines[:1] + kept) + "\n")
 
 
-def _supervise(case: ResolvedCase, program: Path, output: Path, case_folder: Path, snapshots: SnapshotWriter, append: bool) -> int:
+@contextlib.contextmanager
+def _plain_path(folder: Path) -> Iterator[Path]:
+    """The folder under a path that OpenFOAM takes: it drops blanks and the like, so then a link stands in for it."""
+    if re.fullmatch(r"[\w./+-]+", str(folder), re.ASCII):
+        yield folder
+        return
+    with tempfile.TemporaryDirectory(prefix="cupel_foam_") as place:
+        link = Path(place)/"case"
+        link.symlink_to(folder, target_is_directory=True)
+        yield link
+
+
+def _supervise(case: ResolvedCase, command: list[str], output: Path, case_folder: Path, snapshots: SnapshotWriter,
+               log: TextIO) -> int:
     """Run the solver in its own session, so that a Ctrl-C reaches it once, through this process."""
-    with open(output/"log.txt", "a" if append else "w", encoding="utf-8") as log:
-        process = subprocess.Popen([str(program), "-case", str(case_folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, errors="replace", env=solver_environment(), start_new_session=True,
-                                   preexec_fn=_end_with_parent)
-        interruptions: list[int] = []
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, errors="replace", env=solver_environment(), start_new_session=True,
+                               preexec_fn=_end_with_parent)
+    interruptions: list[int] = []
 
-        def pass_on(number: int, _frame) -> None:
-            interruptions.append(number)
-            process.send_signal(signal.SIGTERM)
+    def pass_on(number: int, _frame) -> None:
+        interruptions.append(number)
+        process.send_signal(signal.SIGTERM)
 
-        earlier = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
-        complaints: list[str] = []
-        listener = threading.Thread(target=_listen, args=(process.stderr, log, complaints))
-        listener.start()
-        try:
-            for line in process.stdout:
-                if line.startswith('{"progress"'):
-                    print(line, end="", flush=True)
-                else:
-                    log.write(line)
-                _convert(case, case_folder, snapshots)
-            status = process.wait()
-        except BaseException:
-            process.kill()
-            process.wait()
-            raise
-        finally:
-            listener.join()
-            for number, handler in earlier.items():
-                signal.signal(number, handler)
+    earlier = {number: signal.signal(number, pass_on) for number in (signal.SIGINT, signal.SIGTERM)}
+    complaints: list[str] = []
+    listener = threading.Thread(target=_listen, args=(process.stderr, log, complaints))
+    listener.start()
+    try:
+        for line in process.stdout:
+            if line.startswith('{"progress"'):
+                print(line, end="", flush=True)
+            else:
+                log.write(line)
+            _convert(case, case_folder, snapshots)
+        status = process.wait()
+    except BaseException:
+        process.kill()
+        process.wait()
+        raise
+    finally:
+        listener.join()
+        for number, handler in earlier.items():
+            signal.signal(number, handler)
     _convert(case, case_folder, snapshots)
     if (case_folder/"history.csv").is_file():
         run_record.copy_beside(case_folder/"history.csv", output/"history.csv")

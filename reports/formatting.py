@@ -84,7 +84,7 @@ def present(row: Row) -> dict:
     return {
         "case": row.case, "solver": solver_name(row.solver), "quantity": quantity_name(row.quantity),
         "value": quantity(row.value, row.unit, like), "reference": quantity(row.reference, row.unit, like),
-        "kind": KIND_NAMES.get(row.reference_kind, row.reference_kind or ""), "source": row.source, "error": error,
+        "kind": KIND_NAMES.get(row.reference_kind, row.reference_kind or ""), "source": SOLVER_NAMES.get(row.source, row.source), "error": error,
         "tolerance": tolerance, "verdict": row.verdict, "word": words[row.verdict], "note": row.note,
     }
 

@@ -50,6 +50,10 @@ def pictures_of(cases: list[Case]) -> dict[str, list[Picture]]:
     """All pictures by case name: three-dimensional views first, drawn in one go, then sections."""
     jobs = {case.name: {"track": tracks.view_jobs, "drop": drops.view_jobs}.get(kind_of(case), lambda case: [])(case)
             for case in cases}
+    beds: set[str] = set()
+    for name, of_case in jobs.items():  # a bed that several tracks share is shown once
+        jobs[name] = [job for job in of_case if not (job["file"].endswith(".csv") and job["file"] in beds)]
+        beds.update(job["file"] for job in of_case)
     with tempfile.TemporaryDirectory() as folder:
         for job in (job for of_case in jobs.values() for job in of_case):
             job["output"] = str(Path(folder) / f"{job['key']}.png")

@@ -43,8 +43,9 @@ def power_picture(cases: list[Case]) -> Picture | None:
             axis.errorbar([power + 0.8 * number for power in known], [1e6 * values[power][0] for power in known],
                           yerr=[1e6 * values[power][1] for power in known], color=solver_colour(solver), linewidth=1.6,
                           marker="os^D"[number % 4], markersize=5.5, capsize=3, label=solver_name(solver))
-        axis.set(xlabel="Laser power [W]", title=label, xticks=powers, ylim=(0, None))
-        axis.margins(x=0.12)
+        greatest = max((value for of_solver in points[name].values() for value, _ in of_solver.values()), default=1e-4)
+        axis.set(xlabel="Laser power [W]", title=label, xticks=powers, ylim=(0, 1.15e6 * greatest),
+                 xlim=(powers[0] - 15, powers[-1] + 15))
         axis.grid(axis="y")
         axis.legend(loc="lower right")
     canvas.tight_layout(w_pad=3)

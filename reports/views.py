@@ -10,6 +10,8 @@ A job is {"file", "output", "spacing", "colour": "temperature"|"speed"|"peak_tem
 from __future__ import annotations
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 SIZE = (1100, 700)
-PATIENCE_S = 600
+PATIENCE_S = 20  # a view, of which most take one or two
 
 
 def draw(jobs: list[dict]) -> str:
@@ -32,16 +34,22 @@ def draw(jobs: list[dict]) -> str:
         json.dump(jobs, file)
         file.flush()
         command = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -nolisten tcp", PYTHON, "-m", "reports.views", file.name]
+        patience = PATIENCE_S * (2 + len(jobs))
         try:
-            done = subprocess.run(command, env=environment(1), capture_output=True, text=True, timeout=PATIENCE_S)
+            process = subprocess.Popen(command, env=environment(1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                       start_new_session=True)
         except FileNotFoundError:
             return "xvfb-run is not installed"
+        try:
+            _, messages = process.communicate(timeout=patience)
         except subprocess.TimeoutExpired:
-            return f"drawing took longer than {PATIENCE_S} s"
-    if done.returncode == 0:
+            os.killpg(process.pid, signal.SIGKILL)  # the virtual screen with it
+            process.communicate()
+            return f"drawing took longer than {patience} s"
+    if process.returncode == 0:
         return ""
-    lines = [line for line in done.stderr.splitlines() if line.strip()]
-    return lines[-1][:200] if lines else f"the drawing program ended with status {done.returncode}"
+    lines = [line for line in messages.splitlines() if line.strip()]
+    return lines[-1][:200] if lines else f"the drawing program ended with status {process.returncode}"
 
 
 def main(path: str) -> int:
@@ -132,8 +140,16 @@ def particles(job: dict):
     keep &= ((position >= lower) & (position <= upper)).all(axis=1)
     if not keep.any():
         raise ValueError("no particle of the primary material in the box")
+    keep[keep] = is_outer(position[keep], job["spacing"])
     colour = colour_values(arrays, len(position), job)[keep]
     return spheres(job, position[keep], np.full(keep.sum(), 0.56 * job["spacing"]), colour)
+
+
+def is_outer(position: np.ndarray, spacing: float) -> np.ndarray:
+    """Which particles (n) can be seen from outside: those that lack neighbours (a full lattice has 26 within 1.8 spacings)."""
+    from scipy.spatial import cKDTree
+
+    return cKDTree(position).query_ball_point(position, 1.8 * spacing, return_length=True) - 1 < 26
 
 
 def grains(job: dict):
@@ -146,24 +162,31 @@ def grains(job: dict):
 
 
 def spheres(job: dict, position: np.ndarray, radius: np.ndarray, colour: np.ndarray):
-    """Spheres at `position` (n, 3) with `radius` (n) [m] and colour values (n)."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkRenderingCore import vtkActor
-    from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
+    """Spheres at `position` (n, 3) with `radius` (n) [m] and colour values (n), as triangles.
 
-    points, cells, cloud = vtkPoints(), vtkCellArray(), vtkPolyData()
+    (VTK's sphere mapper, which draws them in a shader, hangs now and then on a software renderer.)
+    """
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkGlyph3D
+    from vtkmodules.vtkFiltersSources import vtkSphereSource
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    points, cloud, ball, glyphs = vtkPoints(), vtkPolyData(), vtkSphereSource(), vtkGlyph3D()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(position, dtype=float), deep=True))
-    number = np.arange(len(position), dtype=np.int64)
-    cells.SetCells(len(number), numpy_to_vtkIdTypeArray(np.column_stack([np.ones_like(number), number]).ravel(), deep=True))
     cloud.SetPoints(points)
-    cloud.SetVerts(cells)
     add_array(cloud.GetPointData(), "colour", colour)
     add_array(cloud.GetPointData(), "radius", radius)
-    mapper = vtkOpenGLSphereMapper()
-    mapper.SetInputData(cloud)
-    mapper.SetScaleArray("radius")
+    ball.SetRadius(1.0)
+    ball.SetThetaResolution(12)
+    ball.SetPhiResolution(8)
+    glyphs.SetInputData(cloud)
+    glyphs.SetSourceConnection(ball.GetOutputPort())
+    glyphs.SetInputArrayToProcess(0, 0, 0, 0, "radius")
+    glyphs.SetScaleModeToScaleByScalar()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(glyphs.GetOutputPort())
     return coloured(vtkActor(), mapper, job)
 
 
@@ -236,8 +259,9 @@ def floor(job: dict):
     mapper.SetInputConnection(sheet.GetOutputPort())
     actor = vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.80, 0.82, 0.85)
-    actor.GetProperty().SetAmbient(0.3)
+    actor.GetProperty().SetColor(0.72, 0.74, 0.78)
+    actor.GetProperty().SetAmbient(0.2)
+    actor.GetProperty().SetDiffuse(0.7)
     return actor
 
 

@@ -10,7 +10,10 @@ namespace
 {
 volatile std::sig_atomic_t stop_flag = 0;
 
-extern "C" void remember_stop(int) { stop_flag = 1; }
+extern "C" void remember_stop(int)
+{
+    stop_flag = 1;
+}
 
 IOobject state_file(const fvMesh& mesh, IOobject::readOption reading)
 {
@@ -19,16 +22,19 @@ IOobject state_file(const fvMesh& mesh, IOobject::readOption reading)
 
 void list_files(const fileName& root, const fileName& below, std::ostream& list)
 {
-    for (const fileName& name : readDir(root/below, fileName::FILE))
-        if (name != "complete.part") list << fileSize(root/below/name) << ' ' << (below.empty() ? name : below/name) << '\n';
-    for (const fileName& name : readDir(root/below, fileName::DIRECTORY)) list_files(root, below.empty() ? name : below/name, list);
+    for (const fileName& name : readDir(root / below, fileName::FILE))
+        if (name != "complete.part")
+            list << fileSize(root / below / name) << ' ' << (below.empty() ? name : below / name) << '\n';
+    for (const fileName& name : readDir(root / below, fileName::DIRECTORY))
+        list_files(root, below.empty() ? name : below / name, list);
 }
-}
+} // namespace
 
 void install_stop_signals()
 {
     std::signal(SIGINT, remember_stop);
     std::signal(SIGTERM, remember_stop);
+    std::signal(SIGPIPE, SIG_IGN); // whoever read the progress is gone; SIGTERM comes too
 }
 
 bool stop_requested()
@@ -38,7 +44,8 @@ bool stop_requested()
     return stop != 0;
 }
 
-void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, const TimeStep& time_step, const RunState& state)
+void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, const TimeStep& time_step,
+                      const RunState& state)
 {
     clock.writeNow();
     IOdictionary entries(state_file(mesh, IOobject::NO_READ));
@@ -52,18 +59,18 @@ void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, c
     entries.set("time_step", step_entries);
     entries.regIOobject::writeObject(IOstream::ASCII, IOstream::currentVersion, IOstream::UNCOMPRESSED, true);
 
-    const fileName folder(clock.path()/clock.timeName());
+    const fileName folder(clock.path() / clock.timeName());
     {
-        std::ofstream list(folder/"complete.part");
+        std::ofstream list(folder / "complete.part");
         list_files(folder, fileName(), list);
     }
-    mv(folder/"complete.part", folder/"complete");
+    mv(folder / "complete.part", folder / "complete");
 }
 
 bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state)
 {
     IOobject file(state_file(mesh, IOobject::READ_IF_PRESENT));
-    if (!isFile(mesh.time().path()/mesh.time().timeName()/"uniform"/"cupelState")) return false;
+    if (!isFile(mesh.time().path() / mesh.time().timeName() / "uniform" / "cupelState")) return false;
     const IOdictionary entries(file);
     entries.readEntry("steps", state.steps);
     entries.readEntry("wall_seconds", state.wall_seconds);
@@ -72,4 +79,4 @@ bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_ste
     time_step.restore(entries.subDict("time_step"));
     return true;
 }
-}
+} // namespace cupel

@@ -16,12 +16,14 @@ bool stop_requested();
 struct RunState
 {
     label steps = 0;
-    scalar wall_seconds = 0, cpu_seconds = 0;     ///< of earlier runs that this one goes on from
+    scalar wall_seconds = 0, cpu_seconds = 0; ///< of earlier runs that this one goes on from
 };
 
-/// Writes all fields and the run's state at the present time, then the mark `complete` that lists every file with its size.
-void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, const TimeStep& time_step, const RunState& state);
+/// Writes all fields and the run's state at the present time, then the mark `complete` that lists every file with its
+/// size.
+void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, const TimeStep& time_step,
+                      const RunState& state);
 
 /// Takes the state back from the folder that the clock started from. False if the run starts afresh.
 bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state);
-}
+} // namespace cupel

@@ -2,10 +2,10 @@
 ///
 ///   ∂H/∂t + ∇·(ρ₁ φ₁ h₁ + ρ₂ φ₂ c₂ T) = ∇·(k ∇T) + Q_laser − Q_losses,     H = α ρ₁ h₁(T) + (1 − α) ρ₂ c₂ T     [J/m³]
 ///
-/// Each iteration linearises h about the last T, solves for T, takes the enthalpy that the solution means and inverts it for
-/// the mixture. The step conserves energy exactly (to the linear solver's residual) however many iterations it takes.
-/// Convection is implicit upwind, with what a limited linear scheme has over it added for the primary material from the old T;
-/// explicit convection throughout makes hot gas pockets.
+/// Each iteration linearises h about the last T, solves for T, takes the enthalpy that the solution means and inverts
+/// it for the mixture. The step conserves energy exactly (to the linear solver's residual) however many iterations it
+/// takes. Convection is implicit upwind, with what a limited linear scheme has over it added for the primary material
+/// from the old T; explicit convection throughout makes hot gas pockets.
 #pragma once
 
 #include "interface_geometry.hpp"
@@ -18,9 +18,9 @@ namespace cupel
 struct EnergyRates
 {
     LaserPower laser;
-    scalar surface_losses = 0;      ///< evaporation, radiation, convection
-    scalar conducted_in = 0;        ///< through boundaries, positive inward
-    scalar convected_out = 0;       ///< through open boundaries, positive outward
+    scalar surface_losses = 0; ///< evaporation, radiation, convection
+    scalar conducted_in = 0;   ///< through boundaries, positive inward
+    scalar convected_out = 0;  ///< through open boundaries, positive outward
 };
 
 class EnergyEquation
@@ -49,4 +49,4 @@ private:
     const bool has_losses_;
     label iterations_;
 };
-}
+} // namespace cupel

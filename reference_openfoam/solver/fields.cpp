@@ -18,26 +18,23 @@ tmp<volScalarField> mixture_density(const Scene& scene, const volScalarField& fr
 {
     const scalar primary = scene.primary.density, surrounding = scene.surrounding.density;
     return map_field(fraction, "mixture_density", dimDensity,
-                     [=](scalar share) { return share*primary + (1 - share)*surrounding; });
+                     [=](scalar share) { return share * primary + (1 - share) * surrounding; });
 }
-}
+} // namespace
 
 FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarField& fraction)
-:
-    velocity(stored(mesh, "U", IOobject::MUST_READ), mesh),
-    reduced_pressure(stored(mesh, "p_rgh", IOobject::MUST_READ), mesh),
-    flux(stored(mesh, "phi", IOobject::READ_IF_PRESENT), fvc::flux(velocity)),
-    fraction_flux(working(mesh, "fraction_flux"), flux*fvc::interpolate(fraction)),
-    density(working(mesh, "density"), mixture_density(scene, fraction)),
-    mass_flux(working(mesh, "mass_flux"), fvc::interpolate(density)*flux),
-    gravity_potential(working(mesh, "gh"), mesh, dimensionedScalar(dimAcceleration*dimLength, Zero)),
-    gravity_potential_faces(working(mesh, "ghf"), mesh, dimensionedScalar(dimAcceleration*dimLength, Zero)),
-    reference_cell(0),
-    reference_pressure(0)
+    : velocity(stored(mesh, "U", IOobject::MUST_READ), mesh),
+      reduced_pressure(stored(mesh, "p_rgh", IOobject::MUST_READ), mesh),
+      flux(stored(mesh, "phi", IOobject::READ_IF_PRESENT), fvc::flux(velocity)),
+      fraction_flux(working(mesh, "fraction_flux"), flux * fvc::interpolate(fraction)),
+      density(working(mesh, "density"), mixture_density(scene, fraction)),
+      mass_flux(working(mesh, "mass_flux"), fvc::interpolate(density) * flux),
+      gravity_potential(working(mesh, "gh"), mesh, dimensionedScalar(dimAcceleration * dimLength, Zero)),
+      gravity_potential_faces(working(mesh, "ghf"), mesh, dimensionedScalar(dimAcceleration * dimLength, Zero)),
+      reference_cell(0), reference_pressure(0)
 {
     density.oldTime();
-    if (scene.physics.gravity)
-    {
+    if (scene.physics.gravity) {
         const uniformDimensionedVectorField g(
             IOobject("g", mesh.time().constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE));
         gravity_potential = g & mesh.C();
@@ -48,17 +45,14 @@ FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarFi
     mesh.setFluxRequired(fraction.name());
 }
 
-HeatFields::HeatFields(const fvMesh& mesh, bool solved)
-:
-    temperature(stored(mesh, "T", IOobject::MUST_READ), mesh)
+HeatFields::HeatFields(const fvMesh& mesh, bool solved) : temperature(stored(mesh, "T", IOobject::MUST_READ), mesh)
 {
-    if (solved) peak.reset(new volScalarField(stored(mesh, "peak_temperature", IOobject::READ_IF_PRESENT), temperature));
+    if (solved)
+        peak.reset(new volScalarField(stored(mesh, "peak_temperature", IOobject::READ_IF_PRESENT), temperature));
 }
 
 Fields::Fields(const fvMesh& solver_mesh, const Scene& scene)
-:
-    mesh(solver_mesh),
-    fraction(stored(mesh, "fraction", IOobject::MUST_READ), mesh)
+    : mesh(solver_mesh), fraction(stored(mesh, "fraction", IOobject::MUST_READ), mesh)
 {
     if (scene.physics.flow) flow.reset(new FlowFields(mesh, scene, fraction));
     if (scene.physics.has_temperature()) heat.reset(new HeatFields(mesh, scene.physics.heat));
@@ -66,23 +60,20 @@ Fields::Fields(const fvMesh& solver_mesh, const Scene& scene)
 
 tmp<volScalarField> Fields::bounded_fraction() const
 {
-    return map_field(fraction, "bounded_fraction", dimless, [](scalar share) { return min(max(share, scalar(0)), scalar(1)); });
+    return map_field(fraction, "bounded_fraction", dimless,
+                     [](scalar share) { return min(max(share, scalar(0)), scalar(1)); });
 }
 
-tmp<volScalarField> Fields::liquid_fraction(const Scene& scene) const
+void Fields::update_density(const Scene& scene)
 {
-    const PrimaryMaterial& primary = scene.primary;
-    return map_field(heat->temperature, "liquid_fraction", dimless,
-                     [&primary](scalar temperature) { return primary.liquid_fraction(temperature); });
+    flow->density == mixture_density(scene, fraction)();
 }
-
-void Fields::update_density(const Scene& scene) { flow->density == mixture_density(scene, fraction)(); }
 
 void Fields::update_peak()
 {
     const volScalarField& temperature = heat->temperature;
     scalarField& peak = heat->peak->primitiveFieldRef();
-    forAll(peak, cell)
+    forAll (peak, cell)
         if (fraction[cell] >= 0.5) peak[cell] = max(peak[cell], temperature[cell]);
 }
-}
+} // namespace cupel

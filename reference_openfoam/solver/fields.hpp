@@ -11,15 +11,15 @@ struct FlowFields
 {
     FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarField& fraction);
 
-    volVectorField velocity;                 ///< U [m/s]
-    volScalarField reduced_pressure;         ///< p_rgh = p − ρ g·x [Pa]
-    surfaceScalarField flux;                 ///< volume through each face [m³/s]
-    surfaceScalarField fraction_flux;        ///< the primary material's share of it [m³/s], as MULES moved it
-    volScalarField density;                  ///< ρ [kg/m³]
-    surfaceScalarField mass_flux;            ///< [kg/s]
-    volScalarField gravity_potential;        ///< g·x [m²/s²]
+    volVectorField velocity;          ///< U [m/s]
+    volScalarField reduced_pressure;  ///< p_rgh = p − ρ g·x [Pa]
+    surfaceScalarField flux;          ///< volume through each face [m³/s]
+    surfaceScalarField fraction_flux; ///< the primary material's share of it [m³/s], as MULES moved it
+    volScalarField density;           ///< ρ [kg/m³]
+    surfaceScalarField mass_flux;     ///< [kg/s]
+    volScalarField gravity_potential; ///< g·x [m²/s²]
     surfaceScalarField gravity_potential_faces;
-    label reference_cell;                    ///< where the pressure is pinned if no boundary sets it
+    label reference_cell; ///< where the pressure is pinned if no boundary sets it
     scalar reference_pressure;
 };
 
@@ -28,8 +28,8 @@ struct HeatFields
 {
     explicit HeatFields(const fvMesh& mesh, bool solved);
 
-    volScalarField temperature;              ///< T [K]
-    autoPtr<volScalarField> peak;            ///< greatest T that a cell had while the primary material filled half of it [K]
+    volScalarField temperature;   ///< T [K]
+    autoPtr<volScalarField> peak; ///< greatest T that a cell had while the primary material filled half of it [K]
 };
 
 struct Fields
@@ -37,17 +37,15 @@ struct Fields
     Fields(const fvMesh& mesh, const Scene& scene);
 
     const fvMesh& mesh;
-    volScalarField fraction;                 ///< α: share of the primary material, 0 … 1
+    volScalarField fraction; ///< α: share of the primary material, 0 … 1
     autoPtr<FlowFields> flow;
     autoPtr<HeatFields> heat;
 
     /// α limited to 0 … 1 (MULES keeps it there to about 1e-8).
     tmp<volScalarField> bounded_fraction() const;
-    /// Liquid fraction of the primary material, from T; not for scenes without temperature.
-    tmp<volScalarField> liquid_fraction(const Scene& scene) const;
     /// ρ = α ρ₁ + (1 − α) ρ₂ after α has moved.
     void update_density(const Scene& scene);
     /// Keeps the greatest temperature of cells that the primary material fills by half or more.
     void update_peak();
 };
-}
+} // namespace cupel

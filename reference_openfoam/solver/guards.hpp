@@ -15,4 +15,4 @@ struct Diverged : std::runtime_error
 
 /// Throws Diverged if the fields after a step of length `step` cannot be right.
 void check_fields(const Scene& scene, const Fields& fields, const TimeStep& time_step, scalar step);
-}
+} // namespace cupel

@@ -1,23 +1,24 @@
-#include "contact_angle.hpp"
 #include "interface_geometry.hpp"
+#include "contact_angle.hpp"
 
 namespace cupel
 {
 InterfaceGeometry::InterfaceGeometry(const Scene& scene, Fields& fields)
-:
-    scene_(scene),
-    fields_(fields),
-    smoothing_passes_(scene.numerics.get<label>("curvature_smoothing_passes")),
-    averaging_passes_(scene.numerics.get<label>("curvature_averaging_passes")),
-    tiny_gradient_("tiny_gradient", dimless/dimLength, 1e-8/scene.spacing)
+    : scene_(scene), fields_(fields), smoothing_passes_(scene.numerics.get<label>("curvature_smoothing_passes")),
+      averaging_passes_(scene.numerics.get<label>("curvature_averaging_passes")),
+      use_heights_(scene.numerics.get<bool>("height_functions")),
+      tiny_gradient_("tiny_gradient", dimless / dimLength, 1e-8 / scene.spacing)
 {
+    if (scene.physics.surface_tension && use_heights_)
+        heights_.reset(new HeightFunction(fields.fraction, scene.spacing, scene.primary.contact_angle));
     update();
 }
 
 tmp<surfaceVectorField> InterfaceGeometry::face_normals(volScalarField& smooth, const volVectorField& gradient) const
 {
     const surfaceVectorField face_gradient(fvc::interpolate(gradient));
-    tmp<surfaceVectorField> normals(new surfaceVectorField("unit_normal", face_gradient/(mag(face_gradient) + tiny_gradient_)));
+    tmp<surfaceVectorField> normals(
+        new surfaceVectorField("unit_normal", face_gradient / (mag(face_gradient) + tiny_gradient_)));
     if (scene_.physics.wetting) apply_contact_angle(normals.ref(), face_gradient, smooth, scene_, fields_);
     return normals;
 }
@@ -31,36 +32,39 @@ void InterfaceGeometry::update()
     if (!scene_.physics.surface_tension) return;
 
     tmp<volScalarField> curvature;
-    if (smoothing_passes_ == 0)
-    {
+    if (smoothing_passes_ == 0) {
         curvature = -fvc::div(normal_flux_());
     }
-    else
-    {
+    else {
         volScalarField smooth("smooth_fraction", fields_.fraction);
-        for (label pass = 0; pass < smoothing_passes_; ++pass)
-        {
+        for (label pass = 0; pass < smoothing_passes_; ++pass) {
             smooth.primitiveFieldRef() = fvc::average(fvc::interpolate(smooth))().primitiveField();
             smooth.correctBoundaryConditions();
         }
         const surfaceScalarField smooth_flux(face_normals(smooth, fvc::grad(smooth)) & mesh.Sf());
         curvature = -fvc::div(smooth_flux);
     }
-    const volScalarField weight("interface_weight", map_field(fields_.fraction, "interface_weight", dimless, [](scalar share)
-    {
-        const scalar bounded = min(max(share, scalar(0)), scalar(1));
-        return bounded*(1 - bounded) + 1e-6;
-    }));
+    const volScalarField weight("interface_weight",
+                                map_field(fields_.fraction, "interface_weight", dimless, [](scalar share) {
+                                    const scalar bounded = min(max(share, scalar(0)), scalar(1));
+                                    return bounded * (1 - bounded) + 1e-6;
+                                }));
     for (label pass = 0; pass < averaging_passes_; ++pass)
-        curvature = fvc::average(fvc::interpolate(curvature*weight))/fvc::average(fvc::interpolate(weight));
-    curvature_.reset(new surfaceScalarField("face_curvature", fvc::interpolate(curvature*weight)/fvc::interpolate(weight)));
+        curvature = fvc::average(fvc::interpolate(curvature * weight)) / fvc::average(fvc::interpolate(weight));
+    if (heights_.valid()) {
+        tmp<volScalarField> by_heights(new volScalarField("curvature", curvature));
+        heights_->apply(by_heights.ref(), fields_.fraction, gradient_());
+        curvature = by_heights;
+    }
+    curvature_.reset(
+        new surfaceScalarField("face_curvature", fvc::interpolate(curvature * weight) / fvc::interpolate(weight)));
 }
 
 tmp<volVectorField> InterfaceGeometry::unit_normal() const
 {
     const volVectorField& gradient = gradient_();
     // below a thousandth of the gradient of a sharp interface there is no interface to have a normal
-    const dimensionedScalar floor("floor", dimless/dimLength, 1e-3/scene_.spacing);
-    return tmp<volVectorField>(new volVectorField("interface_normal", gradient/(mag(gradient) + floor)));
+    const dimensionedScalar floor("floor", dimless / dimLength, 1e-3 / scene_.spacing);
+    return tmp<volVectorField>(new volVectorField("interface_normal", gradient / (mag(gradient) + floor)));
 }
-}
+} // namespace cupel

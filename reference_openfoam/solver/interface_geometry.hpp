@@ -1,12 +1,15 @@
-/// Where the interface is and how it bends, from the volume fraction α (Brackbill 1992; Popinet 2018 reviews the choices).
+/// Where the interface is and how it bends, from the volume fraction α (Brackbill 1992; Popinet 2018 reviews the
+/// choices).
 ///
 ///   n̂ = ∇α/|∇α|,   δ = |∇α|,   κ = −∇·n̂
 ///
-/// The curvature is taken from a volume fraction smoothed by a few passes of face averages, then averaged over the
-/// interface with the weight α(1 − α), so that the cells that carry the force carry a curvature that belongs to the interface.
+/// The curvature is taken from height functions where columns of cells cross the interface cleanly
+/// (height_function.hpp). Elsewhere, at walls and on grains of few cells, it is taken from a volume fraction smoothed
+/// by a few passes of face averages, then averaged over the interface with the weight α(1 − α).
 #pragma once
 
 #include "fields.hpp"
+#include "height_function.hpp"
 
 namespace cupel
 {
@@ -18,9 +21,12 @@ public:
     /// Recomputes what the scene needs from the present α; wall angles first.
     void update();
 
-    const volVectorField& gradient() const { return *gradient_; }            ///< ∇α [1/m]
-    const surfaceScalarField& normal_flux() const { return *normal_flux_; }  ///< n̂·S on faces [m²], for the compression of α
-    const surfaceScalarField& curvature() const { return *curvature_; }      ///< κ on faces [1/m]; only with surface_tension
+    const volVectorField& gradient() const { return *gradient_; } ///< ∇α [1/m]
+    const surfaceScalarField& normal_flux() const
+    {
+        return *normal_flux_;
+    } ///< n̂·S on faces [m²], for the compression of α
+    const surfaceScalarField& curvature() const { return *curvature_; } ///< κ on faces [1/m]; only with surface_tension
     /// Unit normal in cells, 0 away from the interface.
     tmp<volVectorField> unit_normal() const;
 
@@ -31,8 +37,10 @@ private:
     const Scene& scene_;
     Fields& fields_;
     const label smoothing_passes_, averaging_passes_;
+    const bool use_heights_;
     const dimensionedScalar tiny_gradient_;
+    autoPtr<HeightFunction> heights_;
     autoPtr<volVectorField> gradient_;
     autoPtr<surfaceScalarField> normal_flux_, curvature_;
 };
-}
+} // namespace cupel

@@ -13,28 +13,24 @@ namespace
 /// Share of a Gaussian of 1/e² radius r that lies between lower and upper, both from its axis.
 scalar gaussian_share(scalar lower, scalar upper, scalar radius)
 {
-    const scalar scale = std::sqrt(2.0)/radius;
-    return 0.5*(std::erf(upper*scale) - std::erf(lower*scale));
+    const scalar scale = std::sqrt(2.0) / radius;
+    return 0.5 * (std::erf(upper * scale) - std::erf(lower * scale));
 }
-}
+} // namespace
 
 LaserSource::LaserSource(const Scene& scene, const fvMesh& mesh)
-:
-    scene_(scene),
-    mesh_(mesh),
-    power_density_(IOobject("laser_power_density", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE), mesh,
-                   dimensionedScalar(dimPower/dimVolume, Zero))
+    : scene_(scene), mesh_(mesh), power_density_(IOobject("laser_power_density", mesh.time().timeName(), mesh,
+                                                          IOobject::NO_READ, IOobject::NO_WRITE),
+                                                 mesh, dimensionedScalar(dimPower / dimVolume, Zero))
 {
     // cells of one column share their footprint; a thousandth of the spacing tells columns apart
-    const scalar resolution = 1e-3*scene.spacing;
+    const scalar resolution = 1e-3 * scene.spacing;
     std::map<std::pair<long, long>, std::size_t> index;
-    forAll(mesh.C(), cell)
-    {
+    forAll (mesh.C(), cell) {
         const point& centre = mesh.C()[cell];
-        const std::pair<long, long> key(std::lround(centre.x()/resolution), std::lround(centre.y()/resolution));
+        const std::pair<long, long> key(std::lround(centre.x() / resolution), std::lround(centre.y() / resolution));
         const auto found = index.insert(std::make_pair(key, columns_.size()));
-        if (found.second)
-        {
+        if (found.second) {
             const boundBox box(mesh.points(), mesh.cellPoints()[cell], false);
             columns_.push_back({box.min().x(), box.max().x(), box.min().y(), box.max().y(), {}});
         }
@@ -56,31 +52,30 @@ LaserPower LaserSource::update(scalar time, const volScalarField& fraction)
     power.emitted = laser.power;
     const point axis = laser.axis(time);
     std::vector<scalar> shares;
-    for (const Column& column : columns_)
-    {
-        const scalar footprint = gaussian_share(column.x_lower - axis.x(), column.x_upper - axis.x(), laser.spot_radius)
-                               *gaussian_share(column.y_lower - axis.y(), column.y_upper - axis.y(), laser.spot_radius);
+    for (const Column& column : columns_) {
+        const scalar footprint =
+            gaussian_share(column.x_lower - axis.x(), column.x_upper - axis.x(), laser.spot_radius) *
+            gaussian_share(column.y_lower - axis.y(), column.y_upper - axis.y(), laser.spot_radius);
         if (footprint < 1e-12) continue;
         shares.clear();
         scalar spent = 0, above = 0;
-        for (std::size_t row = 0; row < column.cells.size() && spent < 1; ++row)
-        {
+        for (std::size_t row = 0; row < column.cells.size() && spent < 1; ++row) {
             // 2α times the central difference of α over a cell: its part of the drop of 1 of α² across the surface
             const scalar here = min(max(fraction[column.cells[row]], scalar(0)), scalar(1));
             const scalar below = row + 1 < column.cells.size() ? max(fraction[column.cells[row + 1]], scalar(0)) : here;
-            const scalar share = min(here*max(below - above, scalar(0)), 1 - spent);
+            const scalar share = min(here * max(below - above, scalar(0)), 1 - spent);
             shares.push_back(share);
             spent += share;
             above = here;
         }
         if (spent < 0.5) continue;
-        const scalar column_power = laser.absorptivity*laser.power*footprint;
+        const scalar column_power = laser.absorptivity * laser.power * footprint;
         power.expected += column_power;
         for (std::size_t row = 0; row < shares.size(); ++row)
-            density[column.cells[row]] = column_power*shares[row]/spent/mesh_.V()[column.cells[row]];
+            density[column.cells[row]] = column_power * shares[row] / spent / mesh_.V()[column.cells[row]];
     }
     reduce(power.expected, sumOp<scalar>());
     power.absorbed = volume_integral(density, mesh_);
     return power;
 }
-}
+} // namespace cupel

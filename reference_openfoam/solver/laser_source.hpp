@@ -1,10 +1,12 @@
 /// Gaussian beam shining along −z, absorbed where it first meets the primary material in each column of cells.
 ///
-///   power on a column = A P ∫∫ 2/(π r₀²) exp(−2 r²/r₀²) dx dy over the column's footprint     [W], exact by error functions
+///   power on a column = A P ∫∫ 2/(π r₀²) exp(−2 r²/r₀²) dx dy over the column's footprint     [W], exact by error
+///   functions
 ///
-/// Down the column the light is spent on the cells in proportion to −∂(α²)/∂z, until it is spent: a grain that fills a part
-/// of the column shadows that part of what lies below. The shares of a column that is hit add up to one, so the absorbed
-/// power is A·P of what the beam hits on a surface of any shape. Columns without a surface let their light through.
+/// Down the column the light is spent on the cells in proportion to −∂(α²)/∂z, until it is spent: a grain that fills a
+/// part of the column shadows that part of what lies below. The shares of a column that is hit add up to one, so the
+/// absorbed power is A·P of what the beam hits on a surface of any shape. Columns without a surface let their light
+/// through.
 #pragma once
 
 #include "fields.hpp"
@@ -13,9 +15,9 @@ namespace cupel
 {
 struct LaserPower
 {
-    scalar emitted = 0;     ///< P while the beam is on [W]
-    scalar expected = 0;    ///< A P times the share of the beam that falls on columns with a surface [W]
-    scalar absorbed = 0;    ///< what the field holds, summed over cells [W]
+    scalar emitted = 0;  ///< P while the beam is on [W]
+    scalar expected = 0; ///< A P times the share of the beam that falls on columns with a surface [W]
+    scalar absorbed = 0; ///< what the field holds, summed over cells [W]
 };
 
 class LaserSource
@@ -32,7 +34,7 @@ private:
     struct Column
     {
         scalar x_lower, x_upper, y_lower, y_upper;
-        std::vector<label> cells;                       // from top to bottom
+        std::vector<label> cells; // from top to bottom
     };
 
     const Scene& scene_;
@@ -40,4 +42,4 @@ private:
     std::vector<Column> columns_;
     volScalarField power_density_;
 };
-}
+} // namespace cupel

@@ -1,8 +1,10 @@
 /// cupel_foam: a volume-of-fluid melting solver on OpenFOAM, the grid-based reference of Cupel's SPH solver.
 ///
 /// Usage: cupel_foam -case FOLDER, where FOLDER is a case as reference_openfoam/case_writer.py writes it.
-/// Starts from the newest time in FOLDER. Exit status: 0 completed, 1 stopped, 2 refused, 130 interrupted with a checkpoint.
+/// Starts from the newest time in FOLDER. Exit status: 0 completed, 1 stopped, 2 refused, 130 interrupted with a
+/// checkpoint.
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 
 #if defined(__SSE2__)
@@ -33,12 +35,14 @@ void flush_denormals()
 /// The whole run: everything that the scene needs, and the loop over steps.
 int run_scene(Time& clock, const fvMesh& mesh)
 {
-    const Scene scene(IOdictionary(IOobject("cupelProperties", clock.constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)));
+    const Scene scene(
+        IOdictionary(IOobject("cupelProperties", clock.constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)));
     Fields fields(mesh, scene);
     autoPtr<InterfaceGeometry> geometry;
     if (scene.physics.flow) geometry.reset(new InterfaceGeometry(scene, fields));
-    autoPtr<volVectorField> still_gradient;      // without flow the interface stays: ∇α once
-    if (!scene.physics.flow) still_gradient.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields.fraction)));
+    autoPtr<volVectorField> still_gradient; // without flow the interface stays: ∇α once
+    if (!scene.physics.flow)
+        still_gradient.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields.fraction)));
     autoPtr<EnergyEquation> energy;
     if (scene.physics.heat) energy.reset(new EnergyEquation(scene, fields));
 
@@ -47,8 +51,7 @@ int run_scene(Time& clock, const fvMesh& mesh)
     RunState state;
     const bool resumed = restore_checkpoint(mesh, ledgers, time_step, state);
     Outcome outcome(scene, fields, clock.path());
-    const auto checkpoint = [&]()
-    {
+    const auto checkpoint = [&]() {
         RunState now = state;
         now.wall_seconds += outcome.wall_seconds();
         now.cpu_seconds += outcome.cpu_seconds();
@@ -58,38 +61,33 @@ int run_scene(Time& clock, const fvMesh& mesh)
     if (!resumed) checkpoint();
     outcome.record(0, ledgers, rates, state);
 
-    const scalar almost = 1e-9*scene.end_time;
-    while (clock.value() < scene.end_time - almost)
-    {
-        const scalar next_output = scene.output_interval*(std::floor((clock.value() + almost)/scene.output_interval) + 1);
+    const scalar almost = 1e-9 * scene.end_time;
+    while (clock.value() < scene.end_time - almost) {
+        const scalar next_output =
+            scene.output_interval * (std::floor((clock.value() + almost) / scene.output_interval) + 1);
         const scalar target = min(next_output, scene.end_time);
         const scalar step = time_step.next(clock.value(), target);
         clock.setDeltaT(step, false);
         ++clock;
         ++state.steps;
-        try
-        {
+        try {
             if (scene.physics.flow) advance_volume_fraction(scene, fields, geometry());
-            if (scene.physics.heat)
-            {
+            if (scene.physics.heat) {
                 rates = energy->advance(scene.physics.flow ? geometry->gradient() : still_gradient());
                 fields.update_peak();
                 ledgers.book_energy(rates, step);
             }
-            if (scene.physics.flow)
-            {
+            if (scene.physics.flow) {
                 ledgers.book_flow(step);
                 advance_momentum(scene, fields, geometry());
             }
             check_fields(scene, fields, time_step, step);
         }
-        catch (const Diverged& trouble)
-        {
+        catch (const Diverged& trouble) {
             outcome.finish("stopped", trouble.what(), ledgers, time_step, state);
             return 1;
         }
-        catch (const Foam::error& trouble)
-        {
+        catch (const Foam::error& trouble) {
             outcome.finish("stopped", "OpenFOAM reports: " + trouble.message(), ledgers, time_step, state);
             return 1;
         }
@@ -101,27 +99,37 @@ int run_scene(Time& clock, const fvMesh& mesh)
     outcome.finish("completed", "", ledgers, time_step, state);
     return 0;
 }
+
+/// Opens clock and mesh of the case, runs it, and turns what OpenFOAM refuses into one line.
+int run_case(const argList& arguments)
+{
+    FatalError.throwExceptions();
+    FatalIOError.throwExceptions();
+    messageStream::level = 0; // no line for each linear solve; the run's own lines come from Outcome
+    flush_denormals();
+    try {
+        Time clock(Time::controlDictName, arguments);
+        install_stop_signals(); // after the clock, which sets handlers of OpenFOAM's own
+        const fvMesh mesh(IOobject(fvMesh::defaultRegion, clock.timeName(), clock, IOobject::MUST_READ));
+        return run_scene(clock, mesh);
+    }
+    catch (const Foam::error& trouble) {
+        std::cerr << "cupel_foam: " << trouble.message() << std::endl;
+        return 2;
+    }
 }
+} // namespace
 
 int main(int argc, char** argv)
 {
     argList::noFunctionObjects();
     argList arguments(argc, argv);
-    if (!arguments.checkRootCase()) return 2;
-    FatalError.throwExceptions();
-    FatalIOError.throwExceptions();
-    messageStream::level = 0;                  // no line for each linear solve; the run's own lines come from Outcome
-    flush_denormals();
-    try
-    {
-        Time clock(Time::controlDictName, arguments);
-        install_stop_signals();                // after the clock, which sets handlers of OpenFOAM's own
-        const fvMesh mesh(IOobject(fvMesh::defaultRegion, clock.timeName(), clock, IOobject::MUST_READ));
-        return run_scene(clock, mesh);
-    }
-    catch (const Foam::error& trouble)
-    {
-        std::cerr << "cupel_foam: " << trouble.message() << std::endl;
-        return 2;
-    }
+    int status = 2;
+    if (arguments.checkRootCase())
+        status = run_case(arguments);
+    else
+        std::cerr << "cupel_foam: " << arguments.path() << " is no case folder" << std::endl;
+    // argList's destructor would end the process with status 0
+    if (Pstream::parRun()) UPstream::exit(status);
+    std::exit(status);
 }

@@ -2,7 +2,8 @@
 ///
 ///   F = (dσ/dT) [∇T − n̂ (n̂·∇T)] |∇α| w f_l      [N/m³],     w = 2ρ/(ρ₁ + ρ₂)
 ///
-/// w puts the force on the heavy side and keeps its integral across the interface; f_l: solid metal has no mobile surface.
+/// w puts the force on the heavy side and keeps its integral across the interface; f_l: solid metal has no mobile
+/// surface.
 #pragma once
 
 #include "interface_geometry.hpp"
@@ -11,4 +12,4 @@ namespace cupel
 {
 /// The force density in cells [N/m³].
 tmp<volVectorField> marangoni_force(const Scene& scene, const Fields& fields, const InterfaceGeometry& geometry);
-}
+} // namespace cupel

@@ -19,7 +19,8 @@ struct PrimaryMaterial
     bool melts;
     scalar specific_heat_solid, specific_heat_liquid, conductivity_solid, conductivity_liquid;
     scalar solidus, liquidus, latent_heat;
-    scalar surface_tension_at_reference, surface_tension_slope, surface_tension_reference_temperature, surface_tension_minimum;
+    scalar surface_tension_at_reference, surface_tension_slope, surface_tension_reference_temperature,
+        surface_tension_minimum;
     scalar contact_angle;
     scalar boiling_temperature, vaporization_heat, molar_mass, emissivity;
 
@@ -38,8 +39,9 @@ struct PrimaryMaterial
     /// p_sat(T) = p₀ exp[(L_v M/R)(1/T_b − 1/T)] [Pa] for the ambient pressure p₀.
     scalar saturation_pressure(scalar temperature, scalar ambient_pressure) const;
 
-    /// T of a mixture that holds `primary_mass` [kg/m³] of this material and `other_capacity` [J/(m³·K)] of sensible heat,
-    /// of volumetric enthalpy H = primary_mass h(T) + other_capacity T [J/m³]: the exact inverse, branch by branch.
+    /// T of a mixture that holds `primary_mass` [kg/m³] of this material and `other_capacity` [J/(m³·K)] of sensible
+    /// heat, of volumetric enthalpy H = primary_mass h(T) + other_capacity T [J/m³]: the exact inverse, branch by
+    /// branch.
     scalar mixture_temperature(scalar volumetric_enthalpy, scalar primary_mass, scalar other_capacity) const;
 };
 
@@ -49,4 +51,4 @@ struct SurroundingMaterial
 
     scalar density, viscosity, specific_heat, conductivity;
 };
-}
+} // namespace cupel

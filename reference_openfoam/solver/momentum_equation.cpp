@@ -1,6 +1,6 @@
+#include "momentum_equation.hpp"
 #include "capillary_force.hpp"
 #include "marangoni_stress.hpp"
-#include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
 
@@ -14,17 +14,17 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
     const fvMesh& mesh = fields.mesh;
     tmp<surfaceScalarField> force(new surfaceScalarField(
         IOobject("face_force", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-        dimensionedScalar(dimForce/dimVolume, Zero)));
-    if (scene.physics.surface_tension || scene.physics.recoil)
-    {
+        dimensionedScalar(dimForce / dimVolume, Zero)));
+    if (scene.physics.surface_tension || scene.physics.recoil) {
         const surfaceScalarField interface_gradient(weighted_interface_gradient(scene, fields));
-        if (scene.physics.surface_tension) add_capillary_force(force.ref(), interface_gradient, scene, fields, geometry);
+        if (scene.physics.surface_tension)
+            add_capillary_force(force.ref(), interface_gradient, scene, fields, geometry);
         if (scene.physics.recoil) add_recoil_pressure(force.ref(), interface_gradient, scene, fields);
     }
-    if (scene.physics.gravity) force.ref() -= fields.flow->gravity_potential_faces*fvc::snGrad(fields.flow->density);
+    if (scene.physics.gravity) force.ref() -= fields.flow->gravity_potential_faces * fvc::snGrad(fields.flow->density);
     return force;
 }
-}
+} // namespace
 
 void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometry& geometry)
 {
@@ -35,34 +35,31 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
     surfaceScalarField& phi = flow.flux;
 
     const scalar primary = scene.primary.viscosity, surrounding = scene.surrounding.viscosity;
-    const volScalarField viscosity("viscosity", map_field(fields.fraction, "viscosity", dimPressure*dimTime, [=](scalar share)
-    {
-        const scalar bounded = min(max(share, scalar(0)), scalar(1));
-        return bounded*primary + (1 - bounded)*surrounding;
-    }));
+    const volScalarField viscosity("viscosity",
+                                   map_field(fields.fraction, "viscosity", dimPressure * dimTime, [=](scalar share) {
+                                       const scalar bounded = min(max(share, scalar(0)), scalar(1));
+                                       return bounded * primary + (1 - bounded) * surrounding;
+                                   }));
 
-    fvVectorMatrix momentum
-    (
-        fvm::ddt(flow.density, U) + fvm::div(flow.mass_flux, U)
-      - fvm::laplacian(fvc::interpolate(viscosity), U) - fvc::div(viscosity*dev2(Foam::T(fvc::grad(U))))
-    );
+    fvVectorMatrix momentum(fvm::ddt(flow.density, U) + fvm::div(flow.mass_flux, U) -
+                            fvm::laplacian(fvc::interpolate(viscosity), U) -
+                            fvc::div(viscosity * dev2(Foam::T(fvc::grad(U)))));
     if (scene.physics.melting) momentum += fvm::Sp(mushy_drag(scene, fields), U);
     if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, geometry);
 
     const surfaceScalarField forces(face_forces(scene, fields, geometry));
-    const volScalarField rAU("rAU", 1.0/momentum.A());
+    const volScalarField rAU("rAU", 1.0 / momentum.A());
     const surfaceScalarField rAUf("rAUf", fvc::interpolate(rAU));
     const label correctors = scene.numerics.get<label>("pressure_correctors");
     if (scene.numerics.get<bool>("momentum_predictor"))
-        solve(momentum == fvc::reconstruct((forces - fvc::snGrad(p_rgh))*mesh.magSf()));
+        solve(momentum == fvc::reconstruct((forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
 
-    for (label corrector = 1; corrector <= correctors; ++corrector)
-    {
-        const volVectorField HbyA(constrainHbyA(rAU*momentum.H(), U, p_rgh));
-        surfaceScalarField predicted_flux("predicted_flux",
-            fvc::flux(HbyA) + fvc::interpolate(flow.density*rAU)*fvc::ddtCorr(U, phi));
+    for (label corrector = 1; corrector <= correctors; ++corrector) {
+        const volVectorField HbyA(constrainHbyA(rAU * momentum.H(), U, p_rgh));
+        surfaceScalarField predicted_flux("predicted_flux", fvc::flux(HbyA) + fvc::interpolate(flow.density * rAU) *
+                                                                                  fvc::ddtCorr(U, phi));
         adjustPhi(predicted_flux, U, p_rgh);
-        const surfaceScalarField force_flux(forces*rAUf*mesh.magSf());
+        const surfaceScalarField force_flux(forces * rAUf * mesh.magSf());
         predicted_flux += force_flux;
         constrainPressure(p_rgh, U, predicted_flux, rAUf);
 
@@ -71,8 +68,8 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         pressure.solve(mesh.solver(p_rgh.select(corrector == correctors)));
 
         phi = predicted_flux - pressure.flux();
-        U = HbyA + rAU*fvc::reconstruct((force_flux - pressure.flux())/rAUf);
+        U = HbyA + rAU * fvc::reconstruct((force_flux - pressure.flux()) / rAUf);
         U.correctBoundaryConditions();
     }
 }
-}
+} // namespace cupel

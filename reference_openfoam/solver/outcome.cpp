@@ -20,31 +20,24 @@ double peak_bytes()
 {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
-        if (line.compare(0, 6, "VmHWM:") == 0) return 1024*std::stod(line.substr(6));
+        if (line.compare(0, 6, "VmHWM:") == 0) return 1024 * std::stod(line.substr(6));
     return 0;
 }
 
 std::string escaped(const std::string& text)
 {
     std::string result;
-    for (const char character : text)
-    {
+    for (const char character : text) {
         if (character == '"' || character == '\\') result += '\\';
         result += static_cast<unsigned char>(character) < ' ' ? ' ' : character;
     }
     return result;
 }
-}
+} // namespace
 
 Outcome::Outcome(const Scene& scene, const Fields& fields, const fileName& folder)
-:
-    scene_(scene),
-    fields_(fields),
-    folder_(folder),
-    history_(folder/"history.csv", std::ios::app),
-    next_row_(fields.mesh.time().value()),
-    last_progress_(-GREAT),
-    start_seconds_(seconds_now())
+    : scene_(scene), fields_(fields), folder_(folder), history_(folder / "history.csv", std::ios::app),
+      next_row_(fields.mesh.time().value()), last_progress_(-GREAT), start_seconds_(seconds_now())
 {
     if (history_.tellp() > 0) return;
     history_ << "time_s,time_step_s,primary_volume_m3";
@@ -54,13 +47,17 @@ Outcome::Outcome(const Scene& scene, const Fields& fields, const fileName& folde
     history_ << '\n';
 }
 
-scalar Outcome::wall_seconds() const { return seconds_now() - start_seconds_; }
+scalar Outcome::wall_seconds() const
+{
+    return seconds_now() - start_seconds_;
+}
 
 scalar Outcome::cpu_seconds() const
 {
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    scalar seconds = usage.ru_utime.tv_sec + usage.ru_stime.tv_sec + 1e-6*(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+    scalar seconds =
+        usage.ru_utime.tv_sec + usage.ru_stime.tv_sec + 1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     reduce(seconds, sumOp<scalar>());
     return seconds;
 }
@@ -69,16 +66,17 @@ void Outcome::write_row(scalar step, const Ledgers& ledgers, const EnergyRates& 
 {
     history_.precision(10);
     history_ << fields_.mesh.time().value() << ',' << step << ',' << ledgers.primary_volume();
-    if (fields_.flow.valid())
-    {
+    if (fields_.flow.valid()) {
         // the primary material's kinetic energy and speed: the surrounding's are not compared with anything
         const scalarField share(fields_.bounded_fraction()().primitiveField());
         const scalarField speed(mag(fields_.flow->velocity.primitiveField()));
-        history_ << ',' << volume_integral(0.5*scene_.primary.density*share*sqr(speed), fields_.mesh) << ','
-                 << gMax(scalarField(pos(share - 0.5)*speed));
+        history_ << ',' << volume_integral(0.5 * scene_.primary.density * share * sqr(speed), fields_.mesh) << ','
+                 << gMax(scalarField(pos(share - 0.5) * speed));
     }
     if (scene_.physics.heat)
-        history_ << ',' << gMax(scalarField(pos(fields_.fraction.primitiveField() - 0.5)*fields_.heat->temperature.primitiveField()))
+        history_ << ','
+                 << gMax(scalarField(pos(fields_.fraction.primitiveField() - 0.5) *
+                                     fields_.heat->temperature.primitiveField()))
                  << ',' << rates.surface_losses;
     if (scene_.physics.laser) history_ << ',' << rates.laser.absorbed;
     history_ << '\n' << std::flush;
@@ -87,43 +85,42 @@ void Outcome::write_row(scalar step, const Ledgers& ledgers, const EnergyRates& 
 void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rates, const RunState& state)
 {
     const scalar time = fields_.mesh.time().value();
-    if (time >= next_row_ - 1e-12*scene_.end_time)
-    {
+    if (time >= next_row_ - 1e-12 * scene_.end_time) {
         write_row(step, ledgers, rates);
-        next_row_ = time + 1e-3*scene_.end_time;
+        next_row_ = time + 1e-3 * scene_.end_time;
     }
     const scalar now = seconds_now();
     if (now - last_progress_ < 1 || !Pstream::master()) return;
     last_progress_ = now;
     char text[200];
-    std::snprintf(text, sizeof text, "{\"progress\":{\"time\":%.9g,\"end\":%.9g,\"step\":%d,\"wall_s\":%.1f}}", time, scene_.end_time,
-                  int(state.steps), state.wall_seconds + wall_seconds());
-    std::cout << text << '\n' << "t = " << time << " s, step " << state.steps << " of " << step << " s" << ledgers.summary()
+    std::snprintf(text, sizeof text, "{\"progress\":{\"time\":%.9g,\"end\":%.9g,\"step\":%d,\"wall_s\":%.1f}}", time,
+                  scene_.end_time, int(state.steps), state.wall_seconds + wall_seconds());
+    std::cout << text << '\n'
+              << "t = " << time << " s, step " << state.steps << " of " << step << " s" << ledgers.summary()
               << std::endl;
 }
 
-void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers, const TimeStep& time_step,
-                     const RunState& state) const
+void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,
+                     const TimeStep& time_step, const RunState& state) const
 {
     const std::string ledger_text = ledgers.json();
     const label cells = returnReduce(fields_.mesh.nCells(), sumOp<label>());
     const scalar cpu = state.cpu_seconds + cpu_seconds();
     if (!Pstream::master()) return;
-    std::ofstream file(folder_/"outcome.json.part");
-    file << "{\"status\": \"" << status << "\", \"diagnosis\": \"" << escaped(diagnosis) << "\",\n \"time\": "
-         << fields_.mesh.time().value() << ",\n \"ledgers\": " << ledger_text << ",\n \"cost\": {\"wall_s\": "
-         << state.wall_seconds + wall_seconds() << ", \"cpu_s\": " << cpu << ", \"threads\": " << Pstream::nProcs()
-         << ", \"steps\": " << state.steps << ", \"elements\": " << cells
-         << ", \"updates_per_core_s\": " << scalar(cells)*state.steps/max(cpu, SMALL)
+    std::ofstream file(folder_ / "outcome.json.part");
+    file << "{\"status\": \"" << status << "\", \"diagnosis\": \"" << escaped(diagnosis)
+         << "\",\n \"time\": " << fields_.mesh.time().value() << ",\n \"ledgers\": " << ledger_text
+         << ",\n \"cost\": {\"wall_s\": " << state.wall_seconds + wall_seconds() << ", \"cpu_s\": " << cpu
+         << ", \"threads\": " << Pstream::nProcs() << ", \"steps\": " << state.steps << ", \"elements\": " << cells
+         << ", \"updates_per_core_s\": " << scalar(cells) * state.steps / max(cpu, SMALL)
          << ", \"peak_bytes\": " << static_cast<long>(peak_bytes()) << ", \"time_step_binding\": {";
     const char* separator = "";
-    for (const auto& entry : time_step.binding())
-    {
+    for (const auto& entry : time_step.binding()) {
         file << separator << '"' << entry.first << "\": " << entry.second;
         separator = ", ";
     }
     file << "}},\n \"reference_version\": \"OpenFOAM " << OPENFOAM << "\"}\n";
     file.close();
-    mv(folder_/"outcome.json.part", folder_/"outcome.json");
+    mv(folder_ / "outcome.json.part", folder_ / "outcome.json");
 }
-}
+} // namespace cupel

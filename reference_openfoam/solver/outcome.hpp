@@ -22,8 +22,8 @@ public:
     scalar cpu_seconds() const;
 
     /// Writes outcome.json beside its final name, then renames it.
-    void finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers, const TimeStep& time_step,
-                const RunState& state) const;
+    void finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,
+                const TimeStep& time_step, const RunState& state) const;
 
 private:
     void write_row(scalar step, const Ledgers& ledgers, const EnergyRates& rates);
@@ -34,4 +34,4 @@ private:
     std::ofstream history_;
     scalar next_row_, last_progress_, start_seconds_;
 };
-}
+} // namespace cupel

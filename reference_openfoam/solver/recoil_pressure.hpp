@@ -12,4 +12,4 @@ namespace cupel
 /// Adds p_r ∂W/∂n to `force` [N/m³].
 void add_recoil_pressure(surfaceScalarField& force, const surfaceScalarField& interface_gradient, const Scene& scene,
                          const Fields& fields);
-}
+} // namespace cupel

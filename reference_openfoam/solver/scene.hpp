@@ -1,4 +1,5 @@
-/// The scene as the solver sees it: which models take part, materials, beam, times. Read once from constant/cupelProperties.
+/// The scene as the solver sees it: which models take part, materials, beam, times. Read once from
+/// constant/cupelProperties.
 #pragma once
 
 #include "foam.hpp"
@@ -43,4 +44,4 @@ struct Scene
     /// Numerics of this solver: Courant limits, curvature smoothing, iteration limits.
     dictionary numerics;
 };
-}
+} // namespace cupel

@@ -28,4 +28,4 @@ private:
     const Scene& scene_;
     scalarField loss_, slope_;
 };
-}
+} // namespace cupel

@@ -5,7 +5,7 @@
 ///   viscous       Δx²/ν of the more mobile fluid: the pressure correctors then converge on the implicit viscous term
 ///   gravity       C Δx/√(g H), H the scene's height: gravity waves are followed
 ///   laser         a quarter of the spot radius of travel
-///   diffusion     Δx²/(2a) of the liquid: only when nothing moves (accuracy; the scheme itself is implicit)
+///   diffusion     Δx²/(4a) of the liquid: only when nothing moves (accuracy; the scheme itself is implicit)
 ///
 /// Steps land on the output times. Which limit bound how often is counted.
 #pragma once
@@ -41,4 +41,4 @@ private:
     scalar smallest_cell_, gravity_speed_, last_;
     std::map<std::string, label> binding_;
 };
-}
+} // namespace cupel

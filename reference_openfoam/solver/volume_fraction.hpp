@@ -11,4 +11,4 @@ namespace cupel
 {
 /// Moves α by one step of the clock and updates density, fluxes and interface geometry.
 void advance_volume_fraction(const Scene& scene, Fields& fields, InterfaceGeometry& geometry);
-}
+} // namespace cupel

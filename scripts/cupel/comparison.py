@@ -78,7 +78,7 @@ def ledger_measures(result: dict) -> list[dict]:
         for ledger, entry, name, limits, source in LEDGER_LIMITS
         if ledger in ledgers and entry in ledgers[ledger] and result["solver"] in limits
     ]
-    if "volume" in ledgers and "melting" not in physics:
+    if "volume" in ledgers and "melting" not in physics and not any("volume" in name for name in declared):
         wanted.append((ledgers["volume"].get("closure"), "volume_closure", VOLUME_LIMIT, "volume of each phase"))
     return [
         judge({
@@ -132,10 +132,11 @@ def rows_of(result: dict) -> list[Row]:
         if verdict == "none" and measure["reference_kind"] == "solver":
             if measure.get("reference_solver") == result["solver"]:
                 note = note or "is the reference"
-            else:
+            elif measure["reference"] is None:
                 verdict, note = "missing", note or f"no result of {measure.get('reference_solver')} to compare with"
+        source = measure["source"] or measure.get("reference_solver", "")
         rows.append(Row(*identity, measure["name"], measure["value"], measure["unit"], measure["reference"],
-                        measure["reference_kind"], measure["source"], measure["error"], measure["metric"],
+                        measure["reference_kind"], source, measure["error"], measure["metric"],
                         measure["tolerance"], verdict, note))
     return rows
 

@@ -7,6 +7,7 @@
 #include "models/artificial_stress.hpp"
 #include "models/artificial_viscosity.hpp"
 #include "models/recoil_pressure.hpp"
+#include "models/surface_temperature.hpp"
 #include "models/wall_extrapolation.hpp"
 
 namespace cupel
@@ -21,7 +22,7 @@ SurfaceTensionLaw surface_tension_law(const Material& liquid)
             liquid.surface_tension_reference_temperature.value_or(0.0), liquid.surface_tension_minimum.value_or(0.0)};
 }
 
-}  // namespace
+} // namespace
 
 Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : scene_(scene), particles_(*scene.particles), parameters_(parameters),
@@ -33,31 +34,29 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
       with_marangoni_(scene.definition.requires_physics("marangoni")),
       with_recoil_(scene.definition.requires_physics("recoil"))
 {
-    if (!scene.definition.requires_physics("gravity"))
-        gravity_ = {};
+    if (!scene.definition.requires_physics("gravity")) gravity_ = {};
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
-    if (with_recoil_)
-    {
+    if (with_recoil_) {
         const Material& metal = scene.materials.front();
         vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),
                             metal.vaporization_heat.value(), metal.molar_mass.value()};
     }
-    if (particles_.has("temperature"))
-        temperature_ = &particles_.scalar("temperature");
-    if (with_marangoni_)
-    {
+    if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
+    if (temperature_ && (with_tension_ || with_recoil_))
+        mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
+    if (with_marangoni_) {
         temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
         correction_ = std::make_unique<CorrectionMatrix>(CorrectionMatrix::register_in(particles_));
     }
 }
 
-void Flow::extrapolate_to_walls(const Neighbourhood& neighbourhood, bool may_pull)
+void Flow::extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull)
 {
     const bool walls = particles_.has("wall_normal");
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
-                  WallExtrapolation{mobility_, particles_.density, gravity_, may_pull,
+                  WallExtrapolation{mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind,
                                     walls ? &particles_.vector("wall_normal") : nullptr,
                                     walls ? &particles_.scalar("wall_free_slip") : nullptr, particles_.pressure,
                                     particles_.velocity});
@@ -68,8 +67,7 @@ void Flow::add_remedies(const Neighbourhood& neighbourhood)
     const Numerics& numerics = scene_.definition.numerics;
     if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      ArtificialViscosity{mobility_, numerics.artificial_viscosity,
-                                          numerics.artificial_viscosity_beta,
+                      ArtificialViscosity{mobility_, numerics.artificial_viscosity, numerics.artificial_viscosity_beta,
                                           parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
                                           particles_.mass, particles_.density, particles_.velocity, force_});
     if (numerics.artificial_stress > 0.0)
@@ -89,30 +87,31 @@ void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood)
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
-    if (with_marangoni_)
-        find_temperature_gradient(neighbourhood);
+    if (with_marangoni_) find_temperature_gradient(neighbourhood);
+    if (mean_temperature_)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
+                                         surface_->fields().delta, *mean_temperature_});
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
-        if (surface_ && surface_->fields().delta[i] > 0.0)
-        {
+        if (surface_ && surface_->fields().delta[i] > 0.0) {
             const SurfaceFields& surface = surface_->fields();
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
             if (with_tension_)
-                force_density += surface_tension_force(temperature_ ? tension_((*temperature_)[i])
-                                                                    : tension_.at_reference,
-                                                       surface.curvature[i], normal, delta);
+                force_density +=
+                    surface_tension_force(mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference,
+                                          surface.curvature[i], normal, delta);
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             if (with_recoil_)
                 force_density +=
-                    recoil_force(recoil_pressure(vapour_pressure_, (*temperature_)[i]), normal, delta);
+                    recoil_force(recoil_pressure(vapour_pressure_, (*mean_temperature_)[i]), normal, delta);
             acceleration += (1.0 / particles_.density[i]) * force_density;
         }
         acceleration_.set(i, acceleration);
@@ -121,9 +120,8 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
 
 std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
 {
-    if (scene.two_phase)
-        return std::make_unique<TwoPhaseFlow>(scene, parameters, mobility);
+    if (scene.two_phase) return std::make_unique<TwoPhaseFlow>(scene, parameters, mobility);
     return std::make_unique<FreeSurfaceFlow>(scene, parameters, mobility);
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -37,7 +37,7 @@ public:
 protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
-    void extrapolate_to_walls(const Neighbourhood& neighbourhood, bool may_pull);
+    void extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull);
     /// Adds the optional pair forces that the case switches on to force_.
     void add_remedies(const Neighbourhood& neighbourhood);
     /// acceleration ← force/m + g + surface forces/ρ.
@@ -60,6 +60,7 @@ private:
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
     ScalarField* temperature_ = nullptr;
+    ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it
     VectorField* temperature_gradient_ = nullptr;
     std::unique_ptr<CorrectionMatrix> correction_;
 };
@@ -67,4 +68,4 @@ private:
 /// Two phases that fill the domain: volume by summation, transport velocity. One phase with a free surface: δ-SPH.
 std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
-}  // namespace cupel
+} // namespace cupel

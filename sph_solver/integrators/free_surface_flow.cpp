@@ -17,14 +17,12 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
       rest_density_(scene.materials.front().density)
 {
-    if (scene.definition.numerics.shifting > 0.0)
-    {
+    if (scene.definition.numerics.shifting > 0.0) {
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
-        if (particles_.has("enthalpy"))
-        {
+        if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
             energy_rate_ = &particles_.add_scalar({"shifting_energy_rate", "W"});
         }
@@ -35,16 +33,13 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
 /// Liquid under gravity starts with the pressure of its own weight, so that it does not first fall into itself.
 void FreeSurfaceFlow::start_hydrostatic()
 {
-    if (gravity_.z == 0.0)
-        return;
+    if (gravity_.z == 0.0) return;
     double top = -std::numeric_limits<double>::infinity();
     for (Index i = 0; i < particles_.count(); ++i)
-        if (mobility_.weight[i] != 0.0)
-            top = std::max(top, particles_.position[i].z);
+        if (mobility_.weight[i] != 0.0) top = std::max(top, particles_.position[i].z);
     const double surface = top + 0.5 * scene_.spacing;
     for (Index i = 0; i < particles_.count(); ++i)
-        if (mobility_.weight[i] != 0.0)
-        {
+        if (mobility_.weight[i] != 0.0) {
             const double weight = -rest_density_ * gravity_.z * (surface - particles_.position[i].z);
             particles_.pressure[i] = weight;
             particles_.density[i] = parameters_.equation_of_state.density(weight, rest_density_);
@@ -57,12 +52,10 @@ void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         Vector speed = particles_.velocity[i];
-        if (shift_)
-            speed += (*shift_)[i];
+        if (shift_) speed += (*shift_)[i];
         particles_.position.set(i, particles_.position[i] + time_step * speed);
     }
 }
@@ -70,8 +63,7 @@ void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step
 void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
-    if (shift_)
-        shift_->set(place, {});
+    if (shift_) shift_->set(place, {});
 }
 
 /// Mass, density and momentum that shifting by the last drift carried between particles.
@@ -83,14 +75,12 @@ void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_s
                   ShiftingExchange{mobility_, particles_.volume, particles_.density, particles_.velocity, *shift_,
                                    density_rate_, *mass_rate_, *shift_momentum_rate_});
     if (enthalpy_)
-        for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                      EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_,
-                                       *energy_rate_});
-    for (const Index i : neighbourhood.moving_particles())
-    {
+        for_each_pair(
+            list, particles_, kernel_, neighbourhood.moving(),
+            EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *energy_rate_});
+    for (const Index i : neighbourhood.moving_particles()) {
         const double mass = particles_.mass[i] + time_step * (*mass_rate_)[i];
-        if (enthalpy_)
-            (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
+        if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
         particles_.mass[i] = mass;
     }
 }
@@ -102,21 +92,19 @@ void FreeSurfaceFlow::shift_next(const Neighbourhood& neighbourhood)
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   StrainRate{mobility_, particles_.volume, particles_.velocity, correction_, *strain_rate_});
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h, kernel_(scene_.spacing).value,
+                  ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h,
+                                   0.1 * parameters_.equation_of_state.sound_speed, kernel_(scene_.spacing).value,
                                    0.05 / h, particles_.volume, *strain_rate_, &surface_->fields().colour_gradient,
                                    *shift_});
 }
 
 void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
 {
-    for (const Index c : neighbourhood.standing())
-    {
+    for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility_.weight[i] == 0.0)
-            {
-                particles_.density[i] =
-                    parameters_.equation_of_state.density(particles_.pressure[i], rest_density_);
+            if (mobility_.weight[i] == 0.0) {
+                particles_.density[i] = parameters_.equation_of_state.density(particles_.pressure[i], rest_density_);
                 particles_.volume[i] = particles_.mass[i] / particles_.density[i];
             }
     }
@@ -141,12 +129,10 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
                              parameters_.equation_of_state.sound_speed;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   Continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_gradient_,
-                             diffusion, density_rate_});
-    if (shift_)
-        exchange(neighbourhood, time_step);
+                             correction_, diffusion, density_rate_});
+    if (shift_) exchange(neighbourhood, time_step);
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         particles_.density[i] += time_step * density_rate_[i];
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
@@ -155,13 +141,11 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     extrapolate_to_walls(neighbourhood, false);
     give_walls_volume(neighbourhood);
 
-    if (surface_)
-        surface_->update(neighbourhood);
+    if (surface_) surface_->update(neighbourhood);
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   FreeSurfaceMomentum{mobility_, particles_.volume, particles_.pressure, particles_.velocity,
                                       correction_, scene_.materials.front().viscosity.value(), force_});
-    if (shift_)
-    {
+    if (shift_) {
         for (const Index i : moving)
             force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
         shift_next(neighbourhood);
@@ -170,4 +154,4 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     accelerate(neighbourhood);
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -35,4 +35,4 @@ private:
     ScalarField* energy_rate_ = nullptr;
 };
 
-}  // namespace cupel
+} // namespace cupel

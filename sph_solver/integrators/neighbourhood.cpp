@@ -8,13 +8,11 @@ namespace cupel
 
 Neighbourhood::Neighbourhood(double support, double skin, double spacing, int dimensions)
     : list_(support, skin, spacing, dimensions)
-{
-}
+{}
 
 bool Neighbourhood::update(Particles& particles, const ScalarField& mobility)
 {
-    if (!list_.outdated(particles, moving_particles_))
-        return false;
+    if (!list_.outdated(particles, moving_particles_)) return false;
     rebuild(particles, mobility);
     return true;
 }
@@ -31,14 +29,12 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
 {
     moving_particles_.clear();
     for (Index i = 0; i < particles.count(); ++i)
-        if (mobility[i] != 0.0)
-            moving_particles_.push_back(i);
+        if (mobility[i] != 0.0) moving_particles_.push_back(i);
 
     std::vector<unsigned char> moves(all_.size()), stands(all_.size());
     const auto count = static_cast<Index>(all_.size());
 #pragma omp parallel for schedule(dynamic, 256)
-    for (Index c = 0; c < count; ++c)
-    {
+    for (Index c = 0; c < count; ++c) {
         const Cluster cluster = list_.cluster(c);
         bool some_moves = false, some_stands = false;
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
@@ -51,13 +47,10 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
     }
     moving_.clear();
     standing_.clear();
-    for (Index c = 0; c < count; ++c)
-    {
-        if (moves[static_cast<std::size_t>(c)])
-            moving_.push_back(c);
-        if (stands[static_cast<std::size_t>(c)])
-            standing_.push_back(c);
+    for (Index c = 0; c < count; ++c) {
+        if (moves[static_cast<std::size_t>(c)]) moving_.push_back(c);
+        if (stands[static_cast<std::size_t>(c)]) standing_.push_back(c);
     }
 }
 
-}  // namespace cupel
+} // namespace cupel

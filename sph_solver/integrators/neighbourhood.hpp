@@ -32,4 +32,4 @@ private:
     std::vector<Index> all_, moving_, standing_, moving_particles_;
 };
 
-}  // namespace cupel
+} // namespace cupel

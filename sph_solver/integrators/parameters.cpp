@@ -15,11 +15,9 @@ namespace
 /// extent of a liquid box, m.
 double driven_length(const Case& definition)
 {
-    if (definition.laser)
-        return definition.laser->spot_radius;
+    if (definition.laser) return definition.laser->spot_radius;
     double length = std::numeric_limits<double>::infinity();
-    for (const Body& body : definition.bodies)
-    {
+    for (const Body& body : definition.bodies) {
         if (body.shape == BodyShape::sphere)
             length = std::min(length, body.radius);
         else
@@ -38,9 +36,12 @@ double liquid_height(const Case& definition)
     return height;
 }
 
-double length_of(const std::array<double, 3>& a) { return std::hypot(a[0], a[1], a[2]); }
+double length_of(const std::array<double, 3>& a)
+{
+    return std::hypot(a[0], a[1], a[2]);
+}
 
-}  // namespace
+} // namespace
 
 FlowParameters derive_flow_parameters(const Scene& scene)
 {
@@ -51,10 +52,8 @@ FlowParameters derive_flow_parameters(const Scene& scene)
 
     FlowParameters parameters;
     parameters.smoothing_length = numerics.smoothing_ratio * scene.spacing;
-    const auto consider = [&](double speed, const char* name)
-    {
-        if (speed > parameters.reference_speed)
-        {
+    const auto consider = [&](double speed, const char* name) {
+        if (speed > parameters.reference_speed) {
             parameters.reference_speed = speed;
             parameters.reference_speed_from = name;
         }
@@ -63,8 +62,7 @@ FlowParameters derive_flow_parameters(const Scene& scene)
         consider(std::sqrt(liquid.surface_tension.value() / (liquid.density * length)), "surface tension");
     if (definition.requires_physics("gravity"))
         consider(std::sqrt(length_of(definition.gravity) * liquid_height(definition)), "gravity");
-    if (definition.requires_physics("marangoni"))
-    {
+    if (definition.requires_physics("marangoni")) {
         const double slope = std::abs(liquid.surface_tension_slope.value());
         if (definition.laser)
             consider(std::sqrt(slope * (liquid.boiling_temperature.value() - liquid.melting_temperature.value()) /
@@ -75,11 +73,10 @@ FlowParameters derive_flow_parameters(const Scene& scene)
                          (4.0 * liquid.viscosity.value()),
                      "Marangoni stress");
     }
-    // At the boiling point: 0.54 p₀ (Anisimov), as the pressure of a stagnation flow.
+    // The speed that the recoil at the boiling point, 0.54 p₀ (Anisimov), drives (Bernoulli).
     if (definition.requires_physics("recoil"))
-        consider(std::sqrt(0.54 * definition.surrounding->pressure / liquid.density), "recoil");
-    if (numerics.reference_speed)
-    {
+        consider(std::sqrt(2.0 * 0.54 * definition.surrounding->pressure / liquid.density), "recoil");
+    if (numerics.reference_speed) {
         parameters.reference_speed = *numerics.reference_speed;
         parameters.reference_speed_from = "numerics.reference_speed";
     }
@@ -87,8 +84,7 @@ FlowParameters derive_flow_parameters(const Scene& scene)
         throw CaseError("numerics.reference_speed: no force of this scene tells how fast it will flow; give the "
                         "greatest speed expected");
 
-    const double sound_speed =
-        numerics.sound_speed.value_or(numerics.sound_speed_factor * parameters.reference_speed);
+    const double sound_speed = numerics.sound_speed.value_or(numerics.sound_speed_factor * parameters.reference_speed);
     parameters.equation_of_state = {sound_speed, numerics.formulation == "paper" ? 7.0 : 1.0};
     double heaviest = 0.0;
     for (const Material& material : scene.materials)
@@ -103,8 +99,7 @@ TimeStepLimits derive_time_step_limits(const Scene& scene, const FlowParameters&
     TimeStepLimits limits;
     limits["acoustic"] = (scene.two_phase ? 0.4 : 0.35) * dx / parameters.equation_of_state.sound_speed;
     double viscous = std::numeric_limits<double>::infinity(), lightest = viscous;
-    for (const Material& material : scene.materials)
-    {
+    for (const Material& material : scene.materials) {
         viscous = std::min(viscous, 0.125 * material.density * h * h / material.viscosity.value());
         lightest = std::min(lightest, material.density);
     }
@@ -117,4 +112,4 @@ TimeStepLimits derive_time_step_limits(const Scene& scene, const FlowParameters&
     return limits;
 }
 
-}  // namespace cupel
+} // namespace cupel

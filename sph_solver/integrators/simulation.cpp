@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/molten_neighbours.hpp"
+
 namespace cupel
 {
 
@@ -14,14 +16,13 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 FlowParameters parameters_of(const Scene& scene, bool has_flow)
 {
-    if (has_flow)
-        return derive_flow_parameters(scene);
+    if (has_flow) return derive_flow_parameters(scene);
     FlowParameters parameters;
     parameters.smoothing_length = scene.definition.numerics.smoothing_ratio * scene.spacing;
     return parameters;
 }
 
-}  // namespace
+} // namespace
 
 Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)), mobility_(scene_.particles->add_scalar({"mobility", "1"})),
@@ -34,33 +35,45 @@ Simulation::Simulation(Scene scene)
                      scene_.definition.numerics.skin * scene_.spacing, scene_.spacing, scene_.dimensions)
 {
     Particles& particles = *scene_.particles;
-    if (frozen_temperature_)
-    {
+    if (frozen_temperature_) {
         particles.add_scalar({"temperature", "K", Output::yes});
         set_frozen_temperature();
     }
-    if (has_heat_)
-        heat_ = std::make_unique<ThermalStep>(scene_);
-    if (melts_)
-        liquid_fraction_ = &particles.scalar("liquid_fraction");
+    if (has_heat_) heat_ = std::make_unique<ThermalStep>(scene_);
+    if (melts_) liquid_fraction_ = &particles.scalar("liquid_fraction");
     for (Index i = 0; i < particles.count(); ++i)
         mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
-    if (has_flow_)
-        flow_ = make_flow(scene_, parameters_, mobility_);
+    if (!has_flow_) return;
+    if (melts_) {
+        molten_neighbours_ = &particles.add_scalar({"molten_neighbours", "1"});
+        standing_neighbours_ = &particles.add_scalar({"standing_neighbours", "1"});
+    }
+    flow_ = make_flow(scene_, parameters_, mobility_);
+    const bool walled = particles.has("wall_normal");
+    bool open = false;
+    const auto reach = [&](std::size_t side) {
+        const auto& boundary = scene_.definition.domain.boundaries[side];
+        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
+        open = open || !stops;
+        return stops ? no_limit : scene_.spacing;
+    };
+    const auto& lower = scene_.definition.domain.lower;
+    const auto& upper = scene_.definition.domain.upper;
+    lower_ = {lower[0] - reach(0), lower[1] - reach(2), lower[2] - reach(4)};
+    upper_ = {upper[0] + reach(1), upper[1] + reach(3), upper[2] + reach(5)};
+    if (open) escaped_ = &particles.add_scalar({"escaped", "1"});
 }
 
 void Simulation::start()
 {
     neighbourhood_.rebuild(*scene_.particles, mobility_);
-    if (flow_)
-        flow_->evaluate(neighbourhood_, 0.0);
+    if (flow_) flow_->evaluate(neighbourhood_, 0.0);
 }
 
 void Simulation::settle()
 {
     neighbourhood_.rebuild(*scene_.particles, mobility_);
-    if (heat_)
-        heat_->forget_geometry();
+    if (heat_) heat_->forget_geometry();
 }
 
 void Simulation::set_frozen_temperature()
@@ -69,8 +82,7 @@ void Simulation::set_frozen_temperature()
     ScalarField& temperature = particles.scalar("temperature");
     const Index count = particles.count();
 #pragma omp parallel for schedule(static)
-    for (Index i = 0; i < count; ++i)
-    {
+    for (Index i = 0; i < count; ++i) {
         const Vector p = particles.position[i];
         temperature[i] = scene_.definition.initial_temperature({p.x, p.y, p.z});
     }
@@ -82,21 +94,16 @@ double Simulation::choose_time_step(double longest)
 {
     double time_step = longest;
     last_binding_ = "output";
-    const auto consider = [&](const std::string& name, double limit)
-    {
-        if (limit < time_step)
-        {
+    const auto consider = [&](const std::string& name, double limit) {
+        if (limit < time_step) {
             time_step = limit;
             last_binding_ = name;
         }
     };
-    if (neighbourhood_.moving_particles().empty())
-    {
-        if (heat_)
-            consider("thermal", heat_->stable_time_step());
+    if (neighbourhood_.moving_particles().empty()) {
+        if (heat_) consider("thermal", heat_->stable_time_step());
     }
-    else
-    {
+    else {
         double greatest = 0.0;
         const VectorField& acceleration = flow_->acceleration();
         for (const Index i : neighbourhood_.moving_particles())
@@ -106,8 +113,7 @@ double Simulation::choose_time_step(double longest)
                                           : no_limit;
         for (const auto& [name, limit] : limits_)
             consider(name, limit);
-        if (heat_)
-            consider("thermal", heat_->stable_time_step());
+        if (heat_) consider("thermal", heat_->stable_time_step());
     }
     ++binding_[last_binding_];
     return time_step;
@@ -120,8 +126,7 @@ void Simulation::kick(double time_step)
     const auto& moving = neighbourhood_.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         Vector velocity = particles.velocity[i] + time_step * acceleration[i];
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
@@ -131,43 +136,83 @@ void Simulation::kick(double time_step)
     }
 }
 
+bool Simulation::outside(const Vector& p) const
+{
+    return p.x < lower_.x || p.x > upper_.x || p.y < lower_.y || p.y > upper_.y || p.z < lower_.z || p.z > upper_.z;
+}
+
+/// What has flown out through a side without a wall stops there: it takes no further part in the flow. Its mass and
+/// energy stay in the books.
+void Simulation::retire_escaped()
+{
+    if (!escaped_) return;
+    Particles& particles = *scene_.particles;
+    bool changed = false;
+    for (const Index i : neighbourhood_.moving_particles())
+        if (outside(particles.position[i])) {
+            (*escaped_)[i] = 1.0;
+            mobility_[i] = 0.0;
+            particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
+            particles.velocity.set(i, {});
+            flow_->reset(i);
+            changed = true;
+        }
+    if (changed) neighbourhood_.classify(particles, mobility_);
+}
+
+double Simulation::escaped_mass() const
+{
+    if (!escaped_) return 0.0;
+    const Particles& particles = *scene_.particles;
+    return ordered_sum(particles.count(), [&](Index i) { return (*escaped_)[i] * particles.mass[i]; });
+}
+
 void Simulation::advance_flow(double time_step)
 {
     kick(0.5 * time_step);
     flow_->drift(neighbourhood_, time_step);
     neighbourhood_.update(*scene_.particles, mobility_);
-    if (frozen_temperature_)
-        set_frozen_temperature();
+    if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);
     kick(0.5 * time_step);
+    retire_escaped();
     updates_ += neighbourhood_.moving_particles().size();
 }
 
 void Simulation::advance_heat(double until)
 {
-    if (!(until > heat_time_))
-        return;
+    if (!(until > heat_time_)) return;
     heat_->advance(neighbourhood_.list(), heat_time_, until - heat_time_);
     heat_time_ = until;
     updates_ += static_cast<std::uint64_t>(scene_.particles->count());
-    if (melts_ && has_flow_)
-        melt_and_solidify();
+    if (melts_ && has_flow_) melt_and_solidify();
 }
 
-/// Metal with any liquid in it moves (its mush heavily damped), metal without stands where it is.
+/// Whether metal is liquid enough to flow, and deep enough for its flow to be resolved (MoltenNeighbours).
+bool Simulation::flows(Index i) const
+{
+    if ((*liquid_fraction_)[i] < CarmanKozeny::coherent_below) return false;
+    const double full = scene_.dimensions == 2 ? 13.0 : 33.0;
+    return mobility_[i] != 0.0 || (*standing_neighbours_)[i] == 0.0 ||
+           (*molten_neighbours_)[i] >= MoltenNeighbours::film_share * full;
+}
+
+/// Metal that is liquid enough to flow moves (its mush damped); mush that holds together and solid stand where they
+/// are. Were coherent mush left to move, its density would follow the pressure around it while its place could not.
 void Simulation::melt_and_solidify()
 {
     Particles& particles = *scene_.particles;
+    for_each_pair(neighbourhood_.list(), particles, QuinticSpline(parameters_.smoothing_length, scene_.dimensions),
+                  neighbourhood_.all(),
+                  MoltenNeighbours{*liquid_fraction_, particles.kind, CarmanKozeny::coherent_below,
+                                   parameters_.smoothing_length, *molten_neighbours_, *standing_neighbours_});
     const double rest_density = scene_.materials.front().density;
     bool changed = false;
-    for (Index i = 0; i < particles.count(); ++i)
-    {
+    for (Index i = 0; i < particles.count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        if (particles.kind[k] == Kind::wall)
-            continue;
-        const bool liquid = (*liquid_fraction_)[i] > 0.0;
-        if (liquid == (mobility_[i] != 0.0))
-            continue;
+        if (particles.kind[k] == Kind::wall || (escaped_ && (*escaped_)[i] != 0.0)) continue;
+        const bool liquid = flows(i);
+        if (liquid == (mobility_[i] != 0.0)) continue;
         changed = true;
         mobility_[i] = liquid ? 1.0 : 0.0;
         particles.kind[k] = liquid ? Kind::fluid : Kind::solid;
@@ -177,15 +222,13 @@ void Simulation::melt_and_solidify()
         particles.volume[i] = particles.mass[i] / rest_density;
         flow_->reset(i);
     }
-    if (changed)
-        neighbourhood_.classify(particles, mobility_);
+    if (changed) neighbourhood_.classify(particles, mobility_);
 }
 
 double Simulation::step(double longest)
 {
     const double time_step = choose_time_step(longest);
-    if (flow_ && !neighbourhood_.moving_particles().empty())
-        advance_flow(time_step);
+    if (flow_ && !neighbourhood_.moving_particles().empty()) advance_flow(time_step);
     time_ += time_step;
     // The thermal clock: as late as its stability allows, but never later than an output.
     if (heat_ && (time_ - heat_time_ + time_step > heat_->stable_time_step() || last_binding_ == "output"))
@@ -204,8 +247,7 @@ void Simulation::save(std::map<std::string, double>& numbers) const
     numbers["clock.last_time_step"] = last_time_step_;
     for (const auto& [name, count] : binding_)
         numbers["binding." + name] = static_cast<double>(count);
-    if (heat_)
-        heat_->save(numbers);
+    if (heat_) heat_->save(numbers);
 }
 
 void Simulation::load(const std::map<std::string, double>& numbers)
@@ -217,10 +259,8 @@ void Simulation::load(const std::map<std::string, double>& numbers)
     last_time_step_ = numbers.at("clock.last_time_step");
     const std::string prefix = "binding.";
     for (const auto& [name, value] : numbers)
-        if (name.starts_with(prefix))
-            binding_[name.substr(prefix.size())] = static_cast<std::uint64_t>(value);
-    if (heat_)
-        heat_->load(numbers);
+        if (name.starts_with(prefix)) binding_[name.substr(prefix.size())] = static_cast<std::uint64_t>(value);
+    if (heat_) heat_->load(numbers);
 }
 
-}  // namespace cupel
+} // namespace cupel

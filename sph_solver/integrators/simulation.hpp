@@ -52,6 +52,8 @@ public:
     std::uint64_t steps() const { return steps_; }
     double last_time_step() const { return last_time_step_; }
     const std::string& last_binding() const { return last_binding_; }
+    /// Mass of the particles that have left the domain, kg.
+    double escaped_mass() const;
     /// Particle updates so far, by flow and heat together.
     std::uint64_t updates() const { return updates_; }
     /// Criterion → number of steps that it bound.
@@ -63,7 +65,10 @@ private:
     void advance_flow(double time_step);
     void advance_heat(double until);
     void melt_and_solidify();
+    bool flows(Index i) const;
     void kick(double time_step);
+    void retire_escaped();
+    bool outside(const Vector& position) const;
 
     Scene scene_;
     ScalarField& mobility_;
@@ -75,10 +80,14 @@ private:
     std::unique_ptr<Flow> flow_;
     CarmanKozeny mushy_drag_;
     const ScalarField* liquid_fraction_ = nullptr;
+    ScalarField* molten_neighbours_ = nullptr; ///< only where the case melts and flows
+    ScalarField* standing_neighbours_ = nullptr;
+    ScalarField* escaped_ = nullptr; ///< only where a side of the domain is open to what flies
+    Vector lower_{}, upper_{};       ///< beyond these a particle has left, m
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
     std::string last_binding_;
     std::uint64_t steps_ = 0, updates_ = 0;
     std::map<std::string, std::uint64_t> binding_;
 };
 
-}  // namespace cupel
+} // namespace cupel

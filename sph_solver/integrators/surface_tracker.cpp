@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/solid_contact.hpp"
-
 namespace cupel
 {
 
@@ -13,82 +11,69 @@ namespace
 {
 
 /// Liquid neighbours within two smoothing lengths in a full lattice (h = Δx), the particle itself included.
-constexpr double lattice_companions(int dimensions) { return dimensions == 2 ? 13.0 : 33.0; }
+constexpr double lattice_companions(int dimensions)
+{
+    return dimensions == 2 ? 13.0 : 33.0;
+}
 
 bool has_kind(const Particles& particles, Kind kind)
 {
     return std::find(particles.kind.begin(), particles.kind.end(), kind) != particles.kind.end();
 }
 
-}  // namespace
+} // namespace
 
 SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
                                const ScalarField& mobility)
-    : particles_(*scene.particles), kernel_(kernel), mobility_{mobility},
-      profile_(kernel, scene.dimensions), fields_(SurfaceFields::register_in(particles_)),
-      dimensions_(scene.dimensions), two_phase_(scene.two_phase),
+    : particles_(*scene.particles), kernel_(kernel), mobility_{mobility}, profile_(kernel, scene.dimensions),
+      fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),
       needs_curvature_(scene.definition.requires_physics("surface_tension")), spacing_(scene.spacing),
       h_(parameters.smoothing_length), full_companions_(lattice_companions(scene.dimensions))
 {
     for (Index i = 0; i < particles_.count(); ++i)
         fields_.colour[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
-    const bool wets = scene.definition.requires_physics("wetting");
-    if (wets)
-        contact_angle_ = scene.materials.front().contact_angle.value();
-    if (has_kind(particles_, Kind::wall))
-    {
+    if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
         // A wall that the scene does not give an angle is neutral: the surface meets it at right angles.
-        wall_interface_.emplace(WallInterface{mobility_, contact_angle_.value_or(0.5 * std::numbers::pi),
-                                              2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
-                                              particles_.vector("wall_normal"), fields_, scalar("wall_weight_sum"),
-                                              scalar("wall_depth_sum"),
-                                              particles_.add_vector({"wall_lateral_sum", "1"}),
-                                              scalar("wall_primary_sum"), scalar("wall_other_sum")});
-    }
-    else if (wets)
-    {
-        solid_colour_ = &particles_.add_scalar({"solid_colour", "1"});
-        solid_gradient_ = &particles_.add_vector({"solid_gradient", "1/m"});
+        const double contact_angle = scene.definition.requires_physics("wetting")
+                                         ? scene.materials.front().contact_angle.value()
+                                         : 0.5 * std::numbers::pi;
+        wall_interface_.emplace(WallInterface{
+            mobility_, contact_angle, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
+            particles_.vector("wall_normal"), fields_, scalar("wall_weight_sum"), scalar("wall_depth_sum"),
+            particles_.add_vector({"wall_lateral_sum", "1"}), scalar("wall_primary_sum"), scalar("wall_other_sum")});
     }
 }
 
 void SurfaceTracker::update(const Neighbourhood& neighbourhood)
 {
     find_surface(neighbourhood);
-    if (wall_interface_)
-    {
+    if (wall_interface_) {
         prescribe_wall_normals(neighbourhood);
         find_surface(neighbourhood);
     }
-    turn_normals_at_solids(neighbourhood);
     smooth_normals(neighbourhood);
-    turn_normals_at_solids(neighbourhood);
-    if (needs_curvature_)
-        fit_curvature(neighbourhood);
+    if (needs_curvature_) fit_curvature(neighbourhood);
 }
 
 void SurfaceTracker::find_surface(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  ColourGradient{mobility_, two_phase_, h_, particles_.volume, fields_});
+                  ColourGradient{mobility_, two_phase_, h_, particles_.volume, particles_.kind, fields_});
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
     for (std::size_t m = 0; m < count; ++m)
         finish_gradient(moving[m]);
-    if (two_phase_)
-        return;
+    if (two_phase_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceNeighbourhood{mobility_, fields_});
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         const bool near_surface = fields_.in_band[i] != 0.0 || fields_.raw_curvature[i] > 0.0;
         const bool spray = fields_.companions[i] < thresholds_.fewest_companions * full_companions_;
-        if (!near_surface || spray)
-            fields_.delta[i] = 0.0;
+        if (!near_surface || spray) fields_.delta[i] = 0.0;
     }
 }
 
@@ -102,8 +87,7 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.normal.set(i, defined ? (1.0 / slope) * gradient : Vector{});
     fields_.in_band[i] = slope * h_ > thresholds_.band ? 1.0 : 0.0;
     const double reach = 2.5 * h_;
-    fields_.depth[i] =
-        std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
+    fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
 }
 
 void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood)
@@ -113,26 +97,21 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood)
     const double sine = std::sin(wall.contact_angle), cosine = std::cos(wall.contact_angle);
     const double kernel_at_zero = kernel_(1e-9 * h_).value;
     const double volume = dimensions_ == 2 ? spacing_ * spacing_ : spacing_ * spacing_ * spacing_;
-    for (const Index c : neighbourhood.standing())
-    {
+    for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-        {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (particles_.kind[k] != Kind::wall)
-                continue;
+            if (particles_.kind[k] != Kind::wall) continue;
             fields_.delta[i] = 0.0;
             const Index parent = particles_.surface_parent[k];
-            if (parent < 0)
-            {
+            if (parent < 0) {
                 fields_.colour[i] = two_phase_ ? 0.0 : 1.0;
                 continue;
             }
             const Index top = particles_.place_of(parent);
             const Vector lateral = wall.lateral_sum[top];
             const double length = norm(lateral);
-            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0)
-            {
+            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0) {
                 const Vector inward = wall.wall_normal[i];
                 const double behind = -dot(particles_.position[i] - particles_.position[top], inward);
                 const double depth = wall.depth_sum[top] / wall.weight_sum[top] + behind * cosine;
@@ -150,18 +129,6 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood)
     }
 }
 
-void SurfaceTracker::turn_normals_at_solids(const Neighbourhood& neighbourhood)
-{
-    if (!solid_colour_)
-        return;
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  SolidContact{mobility_, particles_, fields_, *solid_colour_, *solid_gradient_});
-    for (const Index i : neighbourhood.moving_particles())
-        if (fields_.delta[i] > 0.0)
-            fields_.normal.set(i, wetted_normal(fields_.normal[i], (*solid_gradient_)[i], (*solid_colour_)[i],
-                                                *contact_angle_));
-}
-
 void SurfaceTracker::smooth_normals(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
@@ -169,15 +136,12 @@ void SurfaceTracker::smooth_normals(const Neighbourhood& neighbourhood)
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
-        if (!(fields_.delta[i] > 0.0))
-            continue;
+        if (!(fields_.delta[i] > 0.0)) continue;
         const Vector normal = fields_.smoothed_normal[i];
         fields_.normal.set(i, normal);
-        if (!two_phase_)
-            fields_.delta[i] = std::max(1e-9 / h_, 2.0 * dot(fields_.colour_gradient[i], normal));
+        if (!two_phase_) fields_.delta[i] = std::max(1e-9 / h_, 2.0 * dot(fields_.colour_gradient[i], normal));
     }
 }
 
@@ -192,4 +156,4 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
                   CurvatureSmoothing{mobility_, fields_});
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -28,7 +28,6 @@ private:
     void find_surface(const Neighbourhood& neighbourhood);
     void finish_gradient(Index i);
     void prescribe_wall_normals(const Neighbourhood& neighbourhood);
-    void turn_normals_at_solids(const Neighbourhood& neighbourhood);
     void smooth_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);
 
@@ -41,10 +40,7 @@ private:
     int dimensions_;
     bool two_phase_, needs_curvature_;
     double spacing_, h_, full_companions_;
-    std::optional<double> contact_angle_;       ///< rad; empty where nothing wets
     std::optional<WallInterface> wall_interface_;
-    ScalarField* solid_colour_ = nullptr;
-    VectorField* solid_gradient_ = nullptr;
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -8,6 +8,7 @@
 #include "integrators/parameters.hpp"
 #include "models/exposed_surface.hpp"
 #include "models/heat_conduction.hpp"
+#include "models/laser_spreading.hpp"
 
 namespace cupel
 {
@@ -15,7 +16,10 @@ namespace cupel
 namespace
 {
 
-double smoothing_length_of(const Scene& scene) { return scene.definition.numerics.smoothing_ratio * scene.spacing; }
+double smoothing_length_of(const Scene& scene)
+{
+    return scene.definition.numerics.smoothing_ratio * scene.spacing;
+}
 
 std::vector<ThermalMaterial> thermal_materials(const Scene& scene)
 {
@@ -41,7 +45,7 @@ const Surrounding& needed_surrounding(const Case& definition)
     return *definition.surrounding;
 }
 
-}  // namespace
+} // namespace
 
 ThermalStep::ThermalStep(Scene& scene)
     : particles_(*scene.particles), spacing_(scene.spacing), smoothing_length_(smoothing_length_of(scene)),
@@ -57,27 +61,23 @@ ThermalStep::ThermalStep(Scene& scene)
     const Case& definition = scene.definition;
     if (definition.requires_physics("melting"))
         liquid_fraction_ = &particles_.add_scalar({"liquid_fraction", "1", Output::yes});
-    if (definition.requires_physics("laser"))
-    {
-        if (!definition.laser)
-            throw CaseError("laser: the physics 'laser' needs it; add [laser]");
+    if (definition.requires_physics("laser")) {
+        if (!definition.laser) throw CaseError("laser: the physics 'laser' needs it; add [laser]");
         laser_.emplace(*definition.laser, scene.spacing, scene.dimensions);
+        laser_definition_ = definition.laser;
+        hit_power_ = &particles_.add_scalar({"laser_hit_power", "W"});
+        laser_share_ = &particles_.add_scalar({"laser_share", "W m3"});
         absorptivity_ = definition.laser->absorptivity;
     }
     set_losses(scene);
-    if (laser_ || losses_.any())
-        metal_ = &particles_.add_scalar({"metal", "1"});
-    if (losses_.any())
-        exposed_area_ = &particles_.add_scalar({"exposed_area", "m2"});
-    if (const Numerics& numerics = definition.numerics; numerics.artificial_heat > 0.0)
-    {
+    if (laser_ || losses_.any()) metal_ = &particles_.add_scalar({"metal", "1"});
+    if (losses_.any()) exposed_area_ = &particles_.add_scalar({"exposed_area", "m2"});
+    if (const Numerics& numerics = definition.numerics; numerics.artificial_heat > 0.0) {
         const double beta = numerics.artificial_viscosity_beta;
-        const double sound_speed =
-            beta > 0.0 ? derive_flow_parameters(scene).equation_of_state.sound_speed : 0.0;
-        artificial_heat_.emplace(
-            ArtificialHeatFields{{numerics.artificial_heat, beta, smoothing_length_, sound_speed},
-                                 particles_.add_scalar({"velocity_divergence", "1/s"}),
-                                 particles_.add_scalar({"artificial_conductivity", "W/(m K)"})});
+        const double sound_speed = beta > 0.0 ? derive_flow_parameters(scene).equation_of_state.sound_speed : 0.0;
+        artificial_heat_.emplace(ArtificialHeatFields{{numerics.artificial_heat, beta, smoothing_length_, sound_speed},
+                                                      particles_.add_scalar({"velocity_divergence", "1/s"}),
+                                                      particles_.add_scalar({"artificial_conductivity", "W/(m K)"})});
     }
     set_initial_state(scene);
     set_stable_time_step(scene);
@@ -88,12 +88,12 @@ void ThermalStep::set_losses(const Scene& scene)
     const Case& definition = scene.definition;
     const Material& metal = scene.materials.front();
     if (definition.requires_physics("evaporation"))
-        losses_.evaporation = Evaporation{{needed_surrounding(definition).pressure,
-                                           needed(metal.boiling_temperature, metal, "boiling_temperature", "evaporation"),
-                                           needed(metal.vaporization_heat, metal, "vaporization_heat", "evaporation"),
-                                           needed(metal.molar_mass, metal, "molar_mass", "evaporation")}};
-    if (definition.requires_physics("radiation"))
-    {
+        losses_.evaporation =
+            Evaporation{{needed_surrounding(definition).pressure,
+                         needed(metal.boiling_temperature, metal, "boiling_temperature", "evaporation"),
+                         needed(metal.vaporization_heat, metal, "vaporization_heat", "evaporation"),
+                         needed(metal.molar_mass, metal, "molar_mass", "evaporation")}};
+    if (definition.requires_physics("radiation")) {
         const Surrounding& surrounding = needed_surrounding(definition);
         losses_.radiation = Radiation{needed(metal.emissivity, metal, "emissivity", "radiation"),
                                       surrounding.convection_coefficient, surrounding.temperature};
@@ -104,28 +104,22 @@ void ThermalStep::set_initial_state(const Scene& scene)
 {
     const Case& definition = scene.definition;
     lowest_possible_ = std::numeric_limits<double>::infinity();
-    for (Index i = 0; i < particles_.count(); ++i)
-    {
+    for (Index i = 0; i < particles_.count(); ++i) {
         const Vector p = particles_.position[i];
         const double temperature = definition.initial_temperature({p.x, p.y, p.z});
-        if (is_wall(i))
-        {
+        if (is_wall(i)) {
             temperature_[i] = peak_temperature_[i] = walls_.nearest_temperature(p).value_or(temperature);
-            if (liquid_fraction_)
-                (*liquid_fraction_)[i] = 0.0;
+            if (liquid_fraction_) (*liquid_fraction_)[i] = 0.0;
             continue;
         }
         const ThermalMaterial& material = material_of(i);
         set_state(i, material.enthalpy(temperature));
         lowest_possible_ = std::min(lowest_possible_, temperature);
-        if (metal_)
-            (*metal_)[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
+        if (metal_) (*metal_)[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
     }
     for (const auto& boundary : definition.domain.boundaries)
-        if (boundary && boundary->temperature)
-            lowest_possible_ = std::min(lowest_possible_, *boundary->temperature);
-    if (losses_.radiation)
-        lowest_possible_ = std::min(lowest_possible_, losses_.radiation->surrounding_temperature);
+        if (boundary && boundary->temperature) lowest_possible_ = std::min(lowest_possible_, *boundary->temperature);
+    if (losses_.radiation) lowest_possible_ = std::min(lowest_possible_, losses_.radiation->surrounding_temperature);
     books_.stored_at_start = stored_energy();
 }
 
@@ -136,15 +130,13 @@ void ThermalStep::set_stable_time_step(const Scene& scene)
         greatest_conductivity = std::max({greatest_conductivity, m.conductivity_solid, m.conductivity_liquid});
     // Beside a better conductor the harmonic mean is up to twice a material's own conductivity.
     double greatest_diffusivity = 0.0;
-    const auto consider = [&](double conductivity, double density, double specific_heat)
-    {
+    const auto consider = [&](double conductivity, double density, double specific_heat) {
         if (conductivity > 0.0)
             greatest_diffusivity =
                 std::max(greatest_diffusivity, 2.0 * conductivity * greatest_conductivity /
                                                    (conductivity + greatest_conductivity) / (density * specific_heat));
     };
-    for (const ThermalMaterial& m : materials_)
-    {
+    for (const ThermalMaterial& m : materials_) {
         consider(m.conductivity_solid, m.density, m.specific_heat_solid);
         consider(m.conductivity_liquid, m.density, m.specific_heat);
     }
@@ -163,19 +155,16 @@ void ThermalStep::set_state(Index i, double enthalpy)
     temperature_[i] = temperature;
     conductivity_[i] = material.conductivity(fraction);
     peak_temperature_[i] = std::max(peak_temperature_[i], temperature);
-    if (liquid_fraction_)
-        (*liquid_fraction_)[i] = fraction;
+    if (liquid_fraction_) (*liquid_fraction_)[i] = fraction;
 }
 
 void ThermalStep::advance(const NeighbourList& list, double time, double time_step)
 {
     update_geometry(list);
     conduct(list);
-    if (walls_.any_temperature())
-        conduct_through_walls(time_step);
-    if (laser_)
-    {
-        const LaserBeam::Power power = laser_->illuminate(particles_, *metal_, time, time_step, power_);
+    if (walls_.any_temperature()) conduct_through_walls(time_step);
+    if (laser_) {
+        const LaserBeam::Power power = light(list, time, time_step);
         books_.laser_emitted += power.emitted * time_step;
         books_.laser_hit += power.hit * time_step;
         books_.laser_absorbed += power.absorbed * time_step;
@@ -189,36 +178,31 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
     all_clusters_.resize(static_cast<std::size_t>(list.cluster_count()));
     std::iota(all_clusters_.begin(), all_clusters_.end(), Index{0});
     stale_clusters_.clear();
-    if (!geometry_known_)
-    {
+    if (!geometry_known_) {
         stale_clusters_ = all_clusters_;
         geometry_known_ = true;
         return;
     }
-    const auto moves = [&](Index i)
-    {
+    const auto moves = [&](Index i) {
         const auto k = static_cast<std::size_t>(i);
         const VectorField& velocity = particles_.velocity;
         return velocity.x[k] != 0.0 || velocity.y[k] != 0.0 || velocity.z[k] != 0.0;
     };
     std::vector<unsigned char> stale(all_clusters_.size(), 0);
 #pragma omp parallel for schedule(dynamic, 256)
-    for (std::size_t c = 0; c < stale.size(); ++c)
-    {
+    for (std::size_t c = 0; c < stale.size(); ++c) {
         const auto near = list.neighbours(static_cast<Index>(c));
         stale[c] = std::any_of(near.begin(), near.end(), moves);
     }
     for (std::size_t c = 0; c < stale.size(); ++c)
-        if (stale[c])
-            stale_clusters_.push_back(static_cast<Index>(c));
+        if (stale[c]) stale_clusters_.push_back(static_cast<Index>(c));
 }
 
 void ThermalStep::update_geometry(const NeighbourList& list)
 {
     find_stale_clusters(list);
     const KernelCompleteness completeness{particles_.volume, conductivity_, particles_.position, walls_, correction_};
-    if (!losses_.any())
-    {
+    if (!losses_.any()) {
         for_each_pair(list, particles_, kernel_, stale_clusters_, completeness);
         return;
     }
@@ -227,11 +211,27 @@ void ThermalStep::update_geometry(const NeighbourList& list)
                                  outermost_layer_share(walls_.layers(), spacing_), *exposed_area_});
 }
 
+/// What the beam gives to particles during a step: rays to the surface, then spread over the kernel.
+LaserBeam::Power ThermalStep::light(const NeighbourList& list, double time, double time_step)
+{
+    std::fill(hit_power_->values.begin(), hit_power_->values.end(), 0.0);
+    std::fill(laser_share_->values.begin(), laser_share_->values.end(), 0.0);
+    const LaserBeam::Power power = laser_->illuminate(particles_, *metal_, time, time_step, *hit_power_);
+    if (power.absorbed == 0.0) return power;
+    for_each_pair(list, particles_, kernel_, all_clusters_, LaserShares{*metal_, *hit_power_, *laser_share_});
+    // The beam moves less than its reach during a step; both of its places are inside.
+    const auto from = laser_definition_->position(time), to = laser_definition_->position(time + time_step);
+    const double moved = std::hypot(to[0] - from[0], to[1] - from[1]);
+    const double reach = 2.5 * laser_definition_->spot_radius + kernel_.support() + 2.0 * smoothing_length_ + moved;
+    for_each_pair(list, particles_, kernel_, all_clusters_,
+                  LaserSpreading{particles_.position, *metal_, *laser_share_, to[0], to[1], reach, power_});
+    return power;
+}
+
 void ThermalStep::conduct(const NeighbourList& list)
 {
     const HeatConduction conduction{particles_.volume, temperature_, conductivity_, correction_, power_};
-    if (!artificial_heat_)
-    {
+    if (!artificial_heat_) {
         for_each_pair(list, particles_, kernel_, all_clusters_, conduction);
         return;
     }
@@ -241,9 +241,9 @@ void ThermalStep::conduct(const NeighbourList& list)
     const Index count = particles_.count();
 #pragma omp parallel for schedule(static)
     for (Index i = 0; i < count; ++i)
-        fields.diffusivity[i] = is_wall(i) ? -1.0
-                                           : fields.conductivity(fields.divergence[i], particles_.density[i],
-                                                                 material_of(i).specific_heat);
+        fields.diffusivity[i] =
+            is_wall(i) ? -1.0
+                       : fields.conductivity(fields.divergence[i], particles_.density[i], material_of(i).specific_heat);
     for_each_pair(list, particles_, kernel_, all_clusters_, conduction,
                   ArtificialHeat{particles_.volume, temperature_, fields.diffusivity, power_});
 }
@@ -251,16 +251,13 @@ void ThermalStep::conduct(const NeighbourList& list)
 void ThermalStep::conduct_through_walls(double time_step)
 {
     const Index count = particles_.count();
-    const auto power_from_walls = [&](Index i)
-    {
+    const auto power_from_walls = [&](Index i) {
         return is_wall(i) ? 0.0
                           : particles_.volume[i] * conductivity_[i] *
                                 walls_.conduction(particles_.position[i], temperature_[i]);
     };
-    books_.walls_in +=
-        time_step * ordered_sum(count, [&](Index i) { return std::max(0.0, power_from_walls(i)); });
-    books_.walls_out +=
-        time_step * ordered_sum(count, [&](Index i) { return std::max(0.0, -power_from_walls(i)); });
+    books_.walls_in += time_step * ordered_sum(count, [&](Index i) { return std::max(0.0, power_from_walls(i)); });
+    books_.walls_out += time_step * ordered_sum(count, [&](Index i) { return std::max(0.0, -power_from_walls(i)); });
 #pragma omp parallel for schedule(static)
     for (Index i = 0; i < count; ++i)
         power_[i] += power_from_walls(i);
@@ -275,14 +272,11 @@ void ThermalStep::apply(double time_step)
     std::vector<LossShares> lost(static_cast<std::size_t>(blocks));
 #pragma omp parallel for schedule(dynamic, 4)
     for (Index b = 0; b < blocks; ++b)
-        for (Index i = b * block; i < std::min(count, (b + 1) * block); ++i)
-        {
-            if (is_wall(i))
-                continue;
+        for (Index i = b * block; i < std::min(count, (b + 1) * block); ++i) {
+            if (is_wall(i)) continue;
             const double mass = particles_.mass[i];
             double enthalpy = enthalpy_[i] + time_step * power_[i] / mass;
-            if (exposed_area_ && (*exposed_area_)[i] > 0.0)
-            {
+            if (exposed_area_ && (*exposed_area_)[i] > 0.0) {
                 LossShares shares =
                     implicit_losses(losses_, material_of(i), enthalpy, (*exposed_area_)[i] * time_step / mass);
                 enthalpy -= shares.total();
@@ -312,8 +306,7 @@ Ledger ThermalStep::ledger() const
     ledger.end = stored_energy();
     ledger.in = books_.laser_absorbed + books_.walls_in;
     ledger.out = books_.walls_out + books_.evaporation + books_.radiation + books_.convection;
-    if (ledger.in == 0.0 && ledger.out == 0.0)
-        ledger.reference = std::abs(ledger.start);
+    if (ledger.in == 0.0 && ledger.out == 0.0) ledger.reference = std::abs(ledger.start);
     return ledger;
 }
 
@@ -326,20 +319,15 @@ double ThermalStep::laser_absorption_error() const
 TemperatureRange ThermalStep::temperature_range() const
 {
     TemperatureRange range;
-    for (Index i = 0; i < particles_.count(); ++i)
-    {
-        if (is_wall(i))
-            continue;
+    for (Index i = 0; i < particles_.count(); ++i) {
+        if (is_wall(i)) continue;
         const double temperature = temperature_[i];
-        if (!std::isfinite(temperature))
-            return {temperature, temperature, i, i, false};
-        if (range.coldest < 0 || temperature < range.lowest)
-        {
+        if (!std::isfinite(temperature)) return {temperature, temperature, i, i, false};
+        if (range.coldest < 0 || temperature < range.lowest) {
             range.lowest = temperature;
             range.coldest = i;
         }
-        if (range.hottest < 0 || temperature > range.highest)
-        {
+        if (range.hottest < 0 || temperature > range.highest) {
             range.highest = temperature;
             range.hottest = i;
         }
@@ -365,7 +353,7 @@ constexpr NamedAmount named_amounts[] = {{"stored_at_start", &HeatBooks::stored_
                                          {"radiation", &HeatBooks::radiation},
                                          {"convection", &HeatBooks::convection}};
 
-}  // namespace
+} // namespace
 
 void ThermalStep::save(std::map<std::string, double>& numbers) const
 {
@@ -383,4 +371,4 @@ void ThermalStep::load(const std::map<std::string, double>& numbers)
     books_ = books;
 }
 
-}  // namespace cupel
+} // namespace cupel

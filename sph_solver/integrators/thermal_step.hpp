@@ -20,22 +20,22 @@ namespace cupel
 /// Where all the heat went, J since the start, each amount as it was applied to particles.
 struct HeatBooks
 {
-    double stored_at_start = 0;     ///< Σ m h, with h = 0 at 0 K
-    double laser_emitted = 0;       ///< by the beam
-    double laser_hit = 0;           ///< of what was emitted, on metal
-    double laser_absorbed = 0;      ///< by particles
-    double walls_in = 0;            ///< from walls of prescribed temperature hotter than what touches them
-    double walls_out = 0;           ///< to colder ones
+    double stored_at_start = 0; ///< Σ m h, with h = 0 at 0 K
+    double laser_emitted = 0;   ///< by the beam
+    double laser_hit = 0;       ///< of what was emitted, on metal
+    double laser_absorbed = 0;  ///< by particles
+    double walls_in = 0;        ///< from walls of prescribed temperature hotter than what touches them
+    double walls_out = 0;       ///< to colder ones
     double evaporation = 0;
-    double radiation = 0;           ///< out; negative where the surrounding is hotter
-    double convection = 0;          ///< the same
+    double radiation = 0;  ///< out; negative where the surrounding is hotter
+    double convection = 0; ///< the same
 };
 
 struct TemperatureRange
 {
-    double lowest = 0, highest = 0;     ///< K
-    Index coldest = -1, hottest = -1;   ///< places of these particles
-    bool finite = true;                 ///< no temperature is NaN or infinite; if not, `hottest` is the first such one
+    double lowest = 0, highest = 0;   ///< K
+    Index coldest = -1, hottest = -1; ///< places of these particles
+    bool finite = true;               ///< no temperature is NaN or infinite; if not, `hottest` is the first such one
 };
 
 /// Heat on its own time step: conduction, walls of prescribed temperature, laser, losses from the surface, artificial
@@ -66,8 +66,8 @@ public:
 
     /// Σ m h of all particles now, J.
     double stored_energy() const;
-    /// Energy as a ledger, end = now: in = laser + walls, out = losses + walls. Where nothing comes or goes its reference
-    /// is what was stored at the start.
+    /// Energy as a ledger, end = now: in = laser + walls, out = losses + walls. Where nothing comes or goes its
+    /// reference is what was stored at the start.
     Ledger ledger() const;
     /// |absorbed − A hit|/(A hit) of all laser energy so far; 0 without a laser.
     double laser_absorption_error() const;
@@ -95,6 +95,7 @@ private:
     void set_stable_time_step(const Scene& scene);
     void find_stale_clusters(const NeighbourList& list);
     void update_geometry(const NeighbourList& list);
+    LaserBeam::Power light(const NeighbourList& list, double time, double time_step);
     void conduct(const NeighbourList& list);
     void conduct_through_walls(double time_step);
     void apply(double time_step);
@@ -113,16 +114,19 @@ private:
     ThermalWalls walls_;
     SurfaceLosses losses_;
     std::optional<LaserBeam> laser_;
+    std::optional<Laser> laser_definition_;
+    ScalarField* hit_power_ = nullptr; ///< only with a laser
+    ScalarField* laser_share_ = nullptr;
     double absorptivity_ = 0;
     ScalarField& temperature_;
     ScalarField& enthalpy_;
     ScalarField& peak_temperature_;
-    ScalarField* liquid_fraction_ = nullptr;    ///< only where the case melts
-    ScalarField& conductivity_;                 ///< 0 for walls, which take no part
+    ScalarField* liquid_fraction_ = nullptr; ///< only where the case melts
+    ScalarField& conductivity_;              ///< 0 for walls, which take no part
     ScalarField& correction_;
     ScalarField& power_;
-    ScalarField* metal_ = nullptr;              ///< only with a laser or losses
-    ScalarField* exposed_area_ = nullptr;       ///< only with losses
+    ScalarField* metal_ = nullptr;        ///< only with a laser or losses
+    ScalarField* exposed_area_ = nullptr; ///< only with losses
     std::optional<ArtificialHeatFields> artificial_heat_;
     std::vector<Index> all_clusters_, stale_clusters_;
     bool geometry_known_ = false;
@@ -130,4 +134,4 @@ private:
     HeatBooks books_;
 };
 
-}  // namespace cupel
+} // namespace cupel

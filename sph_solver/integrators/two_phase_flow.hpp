@@ -18,7 +18,7 @@ public:
 private:
     ScalarField& viscosity_;
     VectorField& transport_force_;
-    double stiffness_;      ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
+    double stiffness_; ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 
-}  // namespace cupel
+} // namespace cupel

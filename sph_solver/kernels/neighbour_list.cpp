@@ -15,13 +15,12 @@ namespace
 /// Clusters whose lists share one array: enough of them to spread over any number of threads.
 constexpr Index clusters_per_chunk = 256;
 
-}  // namespace
+} // namespace
 
 NeighbourList::NeighbourList(double support, double skin, double spacing, int dimensions)
     : support_(support), skin_(skin),
       column_width_(spacing * (dimensions == 2 ? std::sqrt(double(lane_count)) : std::cbrt(double(lane_count))))
-{
-}
+{}
 
 Index NeighbourList::column_x(double x) const
 {
@@ -49,8 +48,7 @@ void NeighbourList::sort_into_columns(Particles& particles)
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector upper{-infinity, -infinity, -infinity};
     lower_ = {infinity, infinity, infinity};
-    for (Index i = 0; i < count; ++i)
-    {
+    for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
         lower_ = {std::min(lower_.x, p.x), std::min(lower_.y, p.y), std::min(lower_.z, p.z)};
         upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
@@ -64,8 +62,7 @@ void NeighbourList::sort_into_columns(Particles& particles)
 
     const auto columns = static_cast<std::size_t>(columns_x_) * static_cast<std::size_t>(columns_y_);
     std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
-    for (Index i = 0; i < count; ++i)
-    {
+    for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
         const Index column = column_y(p.y) * columns_x_ + column_x(p.x);
         column_of[static_cast<std::size_t>(i)] = column;
@@ -79,21 +76,18 @@ void NeighbourList::sort_into_columns(Particles& particles)
 #pragma omp parallel for schedule(dynamic, 64)
     for (std::size_t column = 0; column < columns; ++column)
         // Ties in height are settled by identity, so that the order never depends on what it was before.
-        std::sort(order.begin() + begin[column], order.begin() + begin[column + 1],
-                  [&](Index a, Index b)
-                  {
-                      const double za = position.z[static_cast<std::size_t>(a)];
-                      const double zb = position.z[static_cast<std::size_t>(b)];
-                      return za != zb ? za < zb
-                                      : particles.identity[static_cast<std::size_t>(a)] <
-                                            particles.identity[static_cast<std::size_t>(b)];
-                  });
+        std::sort(order.begin() + begin[column], order.begin() + begin[column + 1], [&](Index a, Index b) {
+            const double za = position.z[static_cast<std::size_t>(a)];
+            const double zb = position.z[static_cast<std::size_t>(b)];
+            return za != zb ? za < zb
+                            : particles.identity[static_cast<std::size_t>(a)] <
+                                  particles.identity[static_cast<std::size_t>(b)];
+        });
     particles.permute(order);
 
     clusters_.clear();
     first_cluster_of_column_.assign(columns + 1, 0);
-    for (std::size_t column = 0; column < columns; ++column)
-    {
+    for (std::size_t column = 0; column < columns; ++column) {
         for (Index first = begin[column]; first < begin[column + 1]; first += lane_count)
             clusters_.push_back({first, std::min<Index>(lane_count, begin[column + 1] - first)});
         first_cluster_of_column_[column + 1] = static_cast<Index>(clusters_.size());
@@ -111,12 +105,10 @@ void NeighbourList::find_neighbours(const Particles& particles)
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-        for (Index c = 0; c < count; ++c)
-        {
+        for (Index c = 0; c < count; ++c) {
             const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
             Box box{particles.position[cluster.first], particles.position[cluster.first]};
-            for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            {
+            for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
                 const Vector p = particles.position[i];
                 box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y), std::min(box.lower.z, p.z)};
                 box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y), std::max(box.upper.z, p.z)};
@@ -124,13 +116,11 @@ void NeighbourList::find_neighbours(const Particles& particles)
             boxes_[static_cast<std::size_t>(c)] = box;
         }
 #pragma omp for schedule(dynamic)
-        for (Index chunk = 0; chunk < chunk_count; ++chunk)
-        {
+        for (Index chunk = 0; chunk < chunk_count; ++chunk) {
             auto& found = chunks_[static_cast<std::size_t>(chunk)];
             found.clear();
             const Index end = std::min(count, (chunk + 1) * clusters_per_chunk);
-            for (Index c = chunk * clusters_per_chunk; c < end; ++c)
-            {
+            for (Index c = chunk * clusters_per_chunk; c < end; ++c) {
                 const std::size_t begin = found.size();
                 list_cluster(particles, c, found);
                 ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(found.size() - begin)};
@@ -146,31 +136,24 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
     const Box& box = boxes_[static_cast<std::size_t>(c)];
     const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
     VectorLanes here = particles.position.lanes(cluster.first);
-    for (int lane = cluster.count; lane < lane_count; ++lane)
-    {
+    for (int lane = cluster.count; lane < lane_count; ++lane) {
         here.x[lane] = here.x[0];
         here.y[lane] = here.y[0];
         here.z[lane] = here.z[0];
     }
     const auto& position = particles.position;
     for (Index cy = column_y(box.lower.y - reach); cy <= column_y(box.upper.y + reach); ++cy)
-        for (Index cx = column_x(box.lower.x - reach); cx <= column_x(box.upper.x + reach); ++cx)
-        {
-            const auto column = static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) +
-                                static_cast<std::size_t>(cx);
-            for (Index d = first_cluster_of_column_[column]; d < first_cluster_of_column_[column + 1]; ++d)
-            {
+        for (Index cx = column_x(box.lower.x - reach); cx <= column_x(box.upper.x + reach); ++cx) {
+            const auto column =
+                static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
+            for (Index d = first_cluster_of_column_[column]; d < first_cluster_of_column_[column + 1]; ++d) {
                 const Box& other = boxes_[static_cast<std::size_t>(d)];
-                if (other.upper.z < box.lower.z - reach)
-                    continue;
-                if (other.lower.z > box.upper.z + reach)
-                    break;
+                if (other.upper.z < box.lower.z - reach) continue;
+                if (other.lower.z > box.upper.z + reach) break;
                 const Cluster& candidates = clusters_[static_cast<std::size_t>(d)];
-                for (Index j = candidates.first; j < candidates.first + candidates.count; ++j)
-                {
+                for (Index j = candidates.first; j < candidates.first + candidates.count; ++j) {
                     const VectorLanes offset = here - broadcast(position[j]);
-                    if (any(dot(offset, offset) < reach_squared))
-                        found.push_back(j);
+                    if (any(dot(offset, offset) < reach_squared)) found.push_back(j);
                 }
             }
         }
@@ -178,15 +161,13 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
 
 bool NeighbourList::outdated(const Particles& particles, std::span<const Index> moving) const
 {
-    if (clusters_.empty())
-        return true;
+    if (clusters_.empty()) return true;
     const double limit = 0.25 * skin_ * skin_;
     bool moved = false;
     const auto& position = particles.position;
     const std::size_t count = moving.size();
 #pragma omp parallel for schedule(static) reduction(|| : moved)
-    for (std::size_t m = 0; m < count; ++m)
-    {
+    for (std::size_t m = 0; m < count; ++m) {
         const auto k = static_cast<std::size_t>(moving[m]);
         const double dx = position.x[k] - built_x_[k], dy = position.y[k] - built_y_[k],
                      dz = position.z[k] - built_z_[k];
@@ -204,4 +185,4 @@ std::size_t NeighbourList::bytes() const
     return total + 3 * built_x_.size() * sizeof(double);
 }
 
-}  // namespace cupel
+} // namespace cupel

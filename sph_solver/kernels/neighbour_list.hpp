@@ -72,4 +72,4 @@ private:
     std::uint64_t builds_ = 0;
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -14,10 +14,10 @@ namespace cupel
 /// What the loop knows of a pair (i, j), for eight particles i at once.
 struct Pair
 {
-    VectorLanes offset;       ///< x_i − x_j, m
-    Lanes distance;           ///< |x_i − x_j|, m; never zero
-    Lanes kernel;             ///< W_ij
-    Lanes gradient_over_r;    ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
+    VectorLanes offset;    ///< x_i − x_j, m
+    Lanes distance;        ///< |x_i − x_j|, m; never zero
+    Lanes kernel;          ///< W_ij
+    Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
 
     VectorLanes gradient() const { return gradient_over_r * offset; }
 };
@@ -41,17 +41,14 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     const double tiny = 1e-18 * list.support() * list.support();
     const auto& position = particles.position;
 #pragma omp parallel for schedule(dynamic, 16)
-    for (Index k = 0; k < count; ++k)
-    {
+    for (Index k = 0; k < count; ++k) {
         const Index c = clusters[static_cast<std::size_t>(k)];
         const Cluster cluster = list.cluster(c);
-        if ((terms.idle(cluster) && ...))
-            continue;
+        if ((terms.idle(cluster) && ...)) continue;
         const VectorLanes here = position.lanes(cluster.first);
         const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
         std::tuple<typename Terms::Sum...> sums{};
-        for (const Index j : list.neighbours(c))
-        {
+        for (const Index j : list.neighbours(c)) {
             Pair pair;
             pair.offset = here - broadcast(position[j]);
             pair.distance = square_root(dot(pair.offset, pair.offset) + tiny);
@@ -59,23 +56,27 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             pair.kernel = w.value;
             pair.gradient_over_r = w.gradient_over_r;
             [&]<std::size_t... n>(std::index_sequence<n...>)
-            { (terms.add(std::get<n>(near), j, pair, std::get<n>(sums)), ...); }(std::index_sequence_for<Terms...>{});
+            {
+                (terms.add(std::get<n>(near), j, pair, std::get<n>(sums)), ...);
+            }
+            (std::index_sequence_for<Terms...>{});
         }
         [&]<std::size_t... n>(std::index_sequence<n...>)
-        { (terms.store(cluster, std::get<n>(near), std::get<n>(sums)), ...); }(std::index_sequence_for<Terms...>{});
+        {
+            (terms.store(cluster, std::get<n>(near), std::get<n>(sums)), ...);
+        }
+        (std::index_sequence_for<Terms...>{});
     }
 }
 
 /// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.
-template <class Value>
-double ordered_sum(Index count, const Value& value)
+template <class Value> double ordered_sum(Index count, const Value& value)
 {
     constexpr Index block = 4096;
     const Index blocks = (count + block - 1) / block;
     std::vector<double> partial(static_cast<std::size_t>(blocks), 0.0);
 #pragma omp parallel for schedule(static)
-    for (Index b = 0; b < blocks; ++b)
-    {
+    for (Index b = 0; b < blocks; ++b) {
         const Index end = std::min(count, (b + 1) * block);
         double sum = 0.0;
         for (Index i = b * block; i < end; ++i)
@@ -88,4 +89,4 @@ double ordered_sum(Index count, const Value& value)
     return total;
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -8,11 +8,10 @@ namespace cupel
 {
 
 /// Value and radial derivative of a smoothing kernel at one distance.
-template <class Scalar>
-struct KernelValue
+template <class Scalar> struct KernelValue
 {
-    Scalar value;               ///< W(r), 1/m³ (1/m² in two dimensions)
-    Scalar gradient_over_r;     ///< (1/r) dW/dr: ∇W = gradient_over_r · (x_i − x_j)
+    Scalar value;           ///< W(r), 1/m³ (1/m² in two dimensions)
+    Scalar gradient_over_r; ///< (1/r) dW/dr: ∇W = gradient_over_r · (x_i − x_j)
 };
 
 /// Quintic spline (Morris, Fox, Zhu 1997), support 3 h:
@@ -25,18 +24,16 @@ class QuinticSpline
 public:
     QuinticSpline(double smoothing_length, int dimensions)
         : inverse_h_(1.0 / smoothing_length), support_(3.0 * smoothing_length),
-          factor_(dimensions == 2 ? 7.0 / (478.0 * std::numbers::pi * smoothing_length * smoothing_length)
-                                  : 1.0 / (120.0 * std::numbers::pi * smoothing_length * smoothing_length *
-                                           smoothing_length))
-    {
-    }
+          factor_(dimensions == 2
+                      ? 7.0 / (478.0 * std::numbers::pi * smoothing_length * smoothing_length)
+                      : 1.0 / (120.0 * std::numbers::pi * smoothing_length * smoothing_length * smoothing_length))
+    {}
 
     double smoothing_length() const { return 1.0 / inverse_h_; }
     double support() const { return support_; }
 
     /// Distance r in m; zero beyond the support.
-    template <class Scalar>
-    KernelValue<Scalar> operator()(const Scalar& r) const
+    template <class Scalar> KernelValue<Scalar> operator()(const Scalar& r) const
     {
         const Scalar zero{};
         const Scalar q = r * inverse_h_;
@@ -53,4 +50,4 @@ private:
     double inverse_h_, support_, factor_;
 };
 
-}  // namespace cupel
+} // namespace cupel

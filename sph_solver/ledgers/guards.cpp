@@ -72,7 +72,7 @@ bool Guards::sound(Index i) const
         (x.z >= limits_.lower.z) & (x.z <= limits_.upper.z) & (dot(v, v) <= limits_.sound_speed * limits_.sound_speed) &
         (temperature >= limits_.lowest_temperature) & (temperature <= limits_.highest_temperature) &
         (density >= bounds.lower) & (density <= bounds.upper);
-    return numbers & (within_limits | (particles_->kind[k] == Kind::wall));
+    return numbers & (within_limits | (particles_->kind[k] != Kind::fluid));
 }
 
 std::optional<Diagnosis> Guards::check(double time) const

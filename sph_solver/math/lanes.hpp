@@ -21,7 +21,10 @@ inline constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
 using LaneMask = std::int64_t __attribute__((vector_size(lane_count * sizeof(double))));
 
-inline Lanes all_lanes(double value) { return value - Lanes{}; }
+inline Lanes all_lanes(double value)
+{
+    return value - Lanes{};
+}
 
 /// Eight consecutive values; arrays keep lane_count values beyond their end readable.
 inline Lanes load_lanes(const double* values)
@@ -49,8 +52,14 @@ inline Lanes square_root(const Lanes& a)
 #endif
 }
 
-inline Lanes maximum(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-inline Lanes minimum(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+inline Lanes maximum(const Lanes& a, const Lanes& b)
+{
+    return a > b ? a : b;
+}
+inline Lanes minimum(const Lanes& a, const Lanes& b)
+{
+    return a < b ? a : b;
+}
 
 inline bool any(const LaneMask& mask)
 {
@@ -62,10 +71,13 @@ inline bool any(const LaneMask& mask)
 
 using VectorLanes = VectorOf<Lanes>;
 
-inline VectorLanes broadcast(const Vector& a) { return {all_lanes(a.x), all_lanes(a.y), all_lanes(a.z)}; }
+inline VectorLanes broadcast(const Vector& a)
+{
+    return {all_lanes(a.x), all_lanes(a.y), all_lanes(a.z)};
+}
 inline Symmetric3<Lanes> broadcast(const Symmetric3<double>& m)
 {
     return {all_lanes(m.xx), all_lanes(m.xy), all_lanes(m.xz), all_lanes(m.yy), all_lanes(m.yz), all_lanes(m.zz)};
 }
 
-}  // namespace cupel
+} // namespace cupel

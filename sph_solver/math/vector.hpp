@@ -7,8 +7,7 @@ namespace cupel
 
 /// Three components of one scalar type: double, or Lanes where eight particles are treated at once.
 /// Two-dimensional scenes live in the x-z plane and keep y at zero.
-template <class Scalar>
-struct VectorOf
+template <class Scalar> struct VectorOf
 {
     Scalar x{}, y{}, z{};
 
@@ -28,36 +27,33 @@ struct VectorOf
     }
 };
 
-template <class Scalar>
-VectorOf<Scalar> operator+(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
+template <class Scalar> VectorOf<Scalar> operator+(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
 {
     return a += b;
 }
-template <class Scalar>
-VectorOf<Scalar> operator-(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
+template <class Scalar> VectorOf<Scalar> operator-(VectorOf<Scalar> a, const VectorOf<Scalar>& b)
 {
     return a -= b;
 }
-template <class Scalar>
-VectorOf<Scalar> operator*(const Scalar& factor, const VectorOf<Scalar>& a)
+template <class Scalar> VectorOf<Scalar> operator*(const Scalar& factor, const VectorOf<Scalar>& a)
 {
     return {factor * a.x, factor * a.y, factor * a.z};
 }
-template <class Scalar>
-Scalar dot(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
+template <class Scalar> Scalar dot(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-template <class Scalar>
-VectorOf<Scalar> cross(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
+template <class Scalar> VectorOf<Scalar> cross(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm(const VectorOf<double>& a) { return std::sqrt(dot(a, a)); }
+inline double norm(const VectorOf<double>& a)
+{
+    return std::sqrt(dot(a, a));
+}
 
 /// Symmetric second-order tensor.
-template <class Scalar>
-struct Symmetric3
+template <class Scalar> struct Symmetric3
 {
     Scalar xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 
@@ -73,8 +69,7 @@ struct Symmetric3
     }
 };
 
-template <class Scalar>
-VectorOf<Scalar> operator*(const Symmetric3<Scalar>& m, const VectorOf<Scalar>& a)
+template <class Scalar> VectorOf<Scalar> operator*(const Symmetric3<Scalar>& m, const VectorOf<Scalar>& a)
 {
     return {m.xx * a.x + m.xy * a.y + m.xz * a.z, m.xy * a.x + m.yy * a.y + m.yz * a.z,
             m.xz * a.x + m.yz * a.y + m.zz * a.z};
@@ -82,4 +77,4 @@ VectorOf<Scalar> operator*(const Symmetric3<Scalar>& m, const VectorOf<Scalar>& 
 
 using Vector = VectorOf<double>;
 
-}  // namespace cupel
+} // namespace cupel

@@ -17,8 +17,8 @@ struct ArtificialHeat
 {
     const ScalarField& volume;
     const ScalarField& temperature;
-    const ScalarField& diffusivity;     ///< q c, W/(m·K), from artificial_conductivity
-    ScalarField& power;                 ///< P, W: added to
+    const ScalarField& diffusivity; ///< q c, W/(m·K), from artificial_conductivity
+    ScalarField& power;             ///< P, W: added to
 
     struct Near
     {
@@ -32,28 +32,22 @@ struct ArtificialHeat
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (diffusivity[i] >= 0.0)
-                return false;
+            if (diffusivity[i] >= 0.0) return false;
         return true;
     }
-    Near near(Index first) const
-    {
-        return {volume.lanes(first), temperature.lanes(first), diffusivity.lanes(first)};
-    }
+    Near near(Index first) const { return {volume.lanes(first), temperature.lanes(first), diffusivity.lanes(first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double diffusivity_j = diffusivity[j];
-        if (diffusivity_j < 0.0)
-            return;
-        sum.power += volume[j] * (i.diffusivity + diffusivity_j) * (i.temperature - temperature[j]) *
-                     pair.gradient_over_r;
+        if (diffusivity_j < 0.0) return;
+        sum.power +=
+            volume[j] * (i.diffusivity + diffusivity_j) * (i.temperature - temperature[j]) * pair.gradient_over_r;
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
         const Lanes power_added = i.volume * sum.power;
         for (int lane = 0; lane < cluster.count; ++lane)
-            if (diffusivity[cluster.first + lane] >= 0.0)
-                power[cluster.first + lane] += power_added[lane];
+            if (diffusivity[cluster.first + lane] >= 0.0) power[cluster.first + lane] += power_added[lane];
     }
 };
 
@@ -62,7 +56,7 @@ struct ArtificialConductivity
 {
     double alpha, beta;
     double smoothing_length;
-    double sound_speed;     ///< c₀, m/s; used where beta > 0
+    double sound_speed; ///< c₀, m/s; used where beta > 0
 
     double operator()(double divergence, double density, double specific_heat) const
     {
@@ -94,7 +88,8 @@ struct VelocityDivergence
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         if (conductivity[j] > 0.0)
-            sum.divergence -= (volume[j] * pair.gradient_over_r) * dot(i.velocity - broadcast(velocity[j]), pair.offset);
+            sum.divergence -=
+                (volume[j] * pair.gradient_over_r) * dot(i.velocity - broadcast(velocity[j]), pair.offset);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -102,4 +97,4 @@ struct VelocityDivergence
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

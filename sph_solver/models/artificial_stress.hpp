@@ -13,8 +13,8 @@ namespace cupel
 struct ArtificialStress
 {
     Mobility mobility;
-    double strength;            ///< ε
-    double kernel_at_spacing;   ///< W(Δp)
+    double strength;          ///< ε
+    double kernel_at_spacing; ///< W(Δp)
     const ScalarField& mass;
     const ScalarField& density;
     const ScalarField& pressure;
@@ -37,8 +37,7 @@ struct ArtificialStress
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0)
-            return;
+        if (mobility.weight[j] == 0.0) return;
         const double stress_j = strength * std::abs(pressure[j]) / (density[j] * density[j]);
         const Lanes closeness = pair.kernel / kernel_at_spacing;
         const Lanes fourth = closeness * closeness * (closeness * closeness);
@@ -52,4 +51,4 @@ struct ArtificialStress
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -12,10 +12,10 @@ namespace cupel
 struct ArtificialViscosity
 {
     Mobility mobility;
-    double linear;              ///< α
-    double quadratic;           ///< β
-    double sound_speed;         ///< c₀, m/s
-    double smoothing_length;    ///< h, m
+    double linear;           ///< α
+    double quadratic;        ///< β
+    double sound_speed;      ///< c₀, m/s
+    double smoothing_length; ///< h, m
     const ScalarField& mass;
     const ScalarField& density;
     const VectorField& velocity;
@@ -35,8 +35,7 @@ struct ArtificialViscosity
     Near near(Index first) const { return {mass.lanes(first), density.lanes(first), velocity.lanes(first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0)
-            return;
+        if (mobility.weight[j] == 0.0) return;
         const double h = smoothing_length;
         const Lanes approach = minimum(dot(i.velocity - broadcast(velocity[j]), pair.offset), Lanes{});
         const Lanes phi = h * approach / (pair.distance * pair.distance + 0.01 * h * h);
@@ -52,4 +51,4 @@ struct ArtificialViscosity
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -13,8 +13,12 @@ namespace cupel
 /// Solid (f = 0) keeps 7·10⁻⁶ of its velocity over 0.1 μs at ρ = 6900.
 struct CarmanKozeny
 {
-    double constant = 1e13;     ///< C, kg/(m³·s); 10⁹ lets cold powder creep
-    double regularisation = 1e-3;   ///< ε
+    double constant = 1e13;       ///< C, kg/(m³·s); 10⁹ lets cold powder creep
+    double regularisation = 1e-3; ///< ε
+
+    /// Below this liquid fraction the drag stops the mush within a tenth of any time step that the flow takes (drag
+    /// rate C (1 − f)²/(f³ ρ) above 5·10⁷ 1/s): it stands, and the flow treats it as a wall.
+    static constexpr double coherent_below = 0.85;
 
     double damping_factor(double liquid_fraction, double density, double time_step) const
     {
@@ -24,4 +28,4 @@ struct CarmanKozeny
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

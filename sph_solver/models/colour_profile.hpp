@@ -18,16 +18,15 @@ class ColourProfile
 {
 public:
     template <class Kernel>
-    ColourProfile(const Kernel& kernel, int dimensions) : support_(kernel.support()), step_(kernel.support() / static_cast<double>(intervals))
+    ColourProfile(const Kernel& kernel, int dimensions)
+        : support_(kernel.support()), step_(kernel.support() / static_cast<double>(intervals))
     {
         constexpr int integration_points = 2000;
-        for (std::size_t k = 0; k <= intervals; ++k)
-        {
+        for (std::size_t k = 0; k <= intervals; ++k) {
             const double s = static_cast<double>(k) * step_;
             const double reach = std::sqrt(std::max(0.0, support_ * support_ - s * s));
             double integral = 0.0;
-            for (int q = 0; q < integration_points; ++q)
-            {
+            for (int q = 0; q < integration_points; ++q) {
                 const double rho = (q + 0.5) * reach / integration_points;
                 const double measure = dimensions == 2 ? 2.0 : 2.0 * std::numbers::pi * rho;
                 integral += measure * kernel(std::sqrt(s * s + rho * rho)).value;
@@ -46,8 +45,7 @@ public:
     double plane_weight(double s) const
     {
         const double position = std::abs(s) / step_;
-        if (position >= static_cast<double>(intervals))
-            return 0.0;
+        if (position >= static_cast<double>(intervals)) return 0.0;
         const auto k = static_cast<std::size_t>(position);
         const double part = position - static_cast<double>(k);
         return plane_[k] * (1.0 - part) + plane_[k + 1] * part;
@@ -60,8 +58,7 @@ public:
         const double inside = outside ? 1.0 - colour : colour;
         const auto above = std::upper_bound(colour_.begin(), colour_.end(), inside);
         double s = support_;
-        if (above != colour_.end() && above != colour_.begin())
-        {
+        if (above != colour_.end() && above != colour_.begin()) {
             const auto k = static_cast<std::size_t>(above - colour_.begin()) - 1;
             s = (static_cast<double>(k) + (inside - colour_[k]) / (colour_[k + 1] - colour_[k])) * step_;
         }
@@ -74,4 +71,4 @@ private:
     std::array<double, intervals + 1> plane_{}, colour_{};
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -18,8 +18,7 @@ struct DensitySummation
     ScalarField& density;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes number{};
@@ -30,15 +29,13 @@ struct DensitySummation
     void add(const Near&, Index, const Pair& pair, Sum& sum) const { sum.number += pair.kernel; }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0)
-                continue;
+            if (mobility.weight[i] == 0.0) continue;
             volume[i] = 1.0 / sum.number[lane];
             density[i] = mass[i] * sum.number[lane];
         }
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

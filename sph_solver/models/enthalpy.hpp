@@ -29,9 +29,9 @@ struct ThermalMaterial
     double specific_heat_solid = 0, specific_heat = 0;      ///< c_s, c_l, J/(kg·K)
     double conductivity_solid = 0, conductivity_liquid = 0; ///< k_s, k_l, W/(m·K)
     bool melts = false;
-    double solidus = 0, liquidus = 0;                       ///< T_s, T_l, K
-    double latent_heat = 0;                                 ///< L, J/kg
-    double enthalpy_at_solidus = 0, enthalpy_at_liquidus = 0;   ///< J/kg
+    double solidus = 0, liquidus = 0;                         ///< T_s, T_l, K
+    double latent_heat = 0;                                   ///< L, J/kg
+    double enthalpy_at_solidus = 0, enthalpy_at_liquidus = 0; ///< J/kg
 
     ThermalMaterial() = default;
 
@@ -56,8 +56,7 @@ struct ThermalMaterial
 
 inline ThermalMaterial::ThermalMaterial(const Material& material, bool melting) : density(material.density)
 {
-    const auto needed = [&](const std::optional<double>& value, const char* key)
-    {
+    const auto needed = [&](const std::optional<double>& value, const char* key) {
         if (!value)
             throw CaseError("material." + material.name + "." + key +
                             ": the physics 'heat' needs it; add it to the material");
@@ -68,8 +67,7 @@ inline ThermalMaterial::ThermalMaterial(const Material& material, bool melting) 
     melts = melting && material.solidus && material.liquidus;
     specific_heat_solid = melts ? material.specific_heat_solid.value_or(specific_heat) : specific_heat;
     conductivity_solid = melts ? material.conductivity_solid.value_or(conductivity_liquid) : conductivity_liquid;
-    if (!melts)
-        return;
+    if (!melts) return;
     solidus = *material.solidus;
     liquidus = *material.liquidus;
     if (liquidus < solidus)
@@ -108,4 +106,4 @@ inline double ThermalMaterial::temperature(double enthalpy, double fraction) con
     return solidus + fraction * (liquidus - solidus);
 }
 
-}  // namespace cupel
+} // namespace cupel

@@ -36,8 +36,7 @@ struct EnthalpyExchange
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0)
-            return;
+        if (mobility.weight[j] == 0.0) return;
         const Lanes weight = i.volume * volume[j] * pair.gradient_over_r;
         sum.power += weight * ((density[j] * enthalpy[j]) * dot(broadcast(shift[j]), pair.offset) +
                                i.density * i.enthalpy * dot(i.shift, pair.offset));
@@ -48,4 +47,4 @@ struct EnthalpyExchange
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -12,8 +12,8 @@ namespace cupel
 /// γ = 1 is the linear law that the default formulation uses; γ = 7 is the paper's.
 struct EquationOfState
 {
-    double sound_speed;         ///< c₀, m/s
-    double exponent = 1.0;      ///< γ
+    double sound_speed;    ///< c₀, m/s
+    double exponent = 1.0; ///< γ
 
     double pressure(double density, double rest_density) const
     {
@@ -28,4 +28,4 @@ struct EquationOfState
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -22,4 +22,4 @@ struct Evaporation
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

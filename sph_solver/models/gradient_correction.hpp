@@ -7,11 +7,12 @@
 namespace cupel
 {
 
-/// Matrix that makes gradients exact for linear fields, whatever the arrangement of neighbours (Randles & Libersky 1996):
+/// Matrix that makes gradients exact for linear fields, whatever the arrangement of neighbours (Randles & Libersky
+/// 1996):
 ///
 ///   L_i = [Σ_j V_j (x_j − x_i) ⊗ ∇W_ij]⁻¹,    ⟨∇f⟩_i = L_i Σ_j V_j (f_j − f_i) ∇W_ij
 ///
-/// Where neighbours are too few or lie in one plane the inverse does not exist and L is zero.
+/// Where neighbours are too few or lie in one plane the inverse does not exist and L is the identity: no correction.
 struct CorrectionMatrix
 {
     ScalarField &xx, &xy, &xz, &yy, &yz, &zz;
@@ -38,22 +39,20 @@ struct CorrectionMatrix
     }
 };
 
-/// Inverse of a symmetric matrix; zero where its determinant is below 10⁻³ of a full neighbourhood's. In two dimensions
-/// the y row is left out.
+/// Inverse of a symmetric matrix; the identity where its determinant is below 10⁻³ of a full neighbourhood's. In two
+/// dimensions the y row is left out.
 inline Symmetric3<double> safe_inverse(const Symmetric3<double>& m, int dimensions)
 {
     constexpr double smallest = 1e-3;
-    if (dimensions == 2)
-    {
+    constexpr Symmetric3<double> identity{1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+    if (dimensions == 2) {
         const double determinant = m.xx * m.zz - m.xz * m.xz;
-        if (!(std::abs(determinant) > smallest))
-            return {};
+        if (!(std::abs(determinant) > smallest)) return identity;
         return {m.zz / determinant, 0.0, -m.xz / determinant, 0.0, 0.0, m.xx / determinant};
     }
     const double c00 = m.yy * m.zz - m.yz * m.yz, c01 = m.xz * m.yz - m.xy * m.zz, c02 = m.xy * m.yz - m.xz * m.yy;
     const double determinant = m.xx * c00 + m.xy * c01 + m.xz * c02;
-    if (!(std::abs(determinant) > smallest))
-        return {};
+    if (!(std::abs(determinant) > smallest)) return identity;
     const double inverse = 1.0 / determinant;
     return {c00 * inverse,
             c01 * inverse,
@@ -71,8 +70,7 @@ struct GradientCorrection
     CorrectionMatrix matrix;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Symmetric3<Lanes> moment{};
@@ -89,9 +87,9 @@ struct GradientCorrection
         const auto& m = sum.moment;
         for (int lane = 0; lane < cluster.count; ++lane)
             if (mobility.weight[cluster.first + lane] != 0.0)
-                matrix.set(cluster.first + lane,
-                           safe_inverse({m.xx[lane], m.xy[lane], m.xz[lane], m.yy[lane], m.yz[lane], m.zz[lane]},
-                                        dimensions));
+                matrix.set(
+                    cluster.first + lane,
+                    safe_inverse({m.xx[lane], m.xy[lane], m.xz[lane], m.yy[lane], m.yz[lane], m.zz[lane]}, dimensions));
     }
 };
 
@@ -128,4 +126,4 @@ struct ScalarGradient
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

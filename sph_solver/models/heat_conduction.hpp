@@ -15,17 +15,18 @@ namespace cupel
 ///   C_i = 1/√Γ_i,   Γ_i = Σ_j V_j W_ij (and what walls of prescribed temperature fill of it)      [1]
 ///
 /// What i gives j takes: energy is conserved to round-off. C makes up for the part of the kernel that is cut off at a
-/// free or adiabatic surface, where the outermost layer of a lattice has Γ = 0.77 and would conduct that much too little
-/// along the surface; and for the noise of a disordered neighbourhood. Inside a lattice it is 1. Beside the formula
-/// without it (moving source 20 μm, Stefan with jitter): error of T 0.3 against 0.7 %, of the front 0.4 against 3.1 %.
-/// A particle of conductivity 0 (walls) takes no part; walls of prescribed temperature: thermal_walls.hpp.
+/// free or adiabatic surface, where the outermost layer of a lattice has Γ = 0.77 and would conduct that much too
+/// little along the surface; and for the noise of a disordered neighbourhood. Inside a lattice it is 1. Beside the
+/// formula without it (moving source 20 μm, Stefan with jitter): error of T 0.3 against 0.7 %, of the front 0.4
+/// against 3.1 %. A particle of conductivity 0 (walls) takes no part; walls of prescribed temperature:
+/// thermal_walls.hpp.
 struct HeatConduction
 {
-    const ScalarField& volume;          ///< V, m³
-    const ScalarField& temperature;     ///< T, K
-    const ScalarField& conductivity;    ///< k, W/(m·K)
-    const ScalarField& correction;      ///< C, 1
-    ScalarField& power;                 ///< P, W: set, not added to
+    const ScalarField& volume;       ///< V, m³
+    const ScalarField& temperature;  ///< T, K
+    const ScalarField& conductivity; ///< k, W/(m·K)
+    const ScalarField& correction;   ///< C, 1
+    ScalarField& power;              ///< P, W: set, not added to
 
     struct Near
     {
@@ -39,8 +40,7 @@ struct HeatConduction
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (conductivity[i] > 0.0)
-                return false;
+            if (conductivity[i] > 0.0) return false;
         return true;
     }
     Near near(Index first) const
@@ -50,8 +50,7 @@ struct HeatConduction
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double k_j = conductivity[j];
-        if (!(k_j > 0.0))
-            return;
+        if (!(k_j > 0.0)) return;
         const Lanes mean = (4.0 * k_j * volume[j] * correction[j]) * i.conductivity / (i.conductivity + k_j);
         sum.power += mean * (i.temperature - temperature[j]) * pair.gradient_over_r;
     }
@@ -72,11 +71,10 @@ struct KernelCompleteness
     const ScalarField& conductivity;
     const VectorField& position;
     const ThermalWalls& walls;
-    ScalarField& correction;    ///< C
+    ScalarField& correction; ///< C
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes share{};
@@ -86,13 +84,11 @@ struct KernelCompleteness
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
     {
-        if (conductivity[j] > 0.0)
-            sum.share += volume[j] * pair.kernel;
+        if (conductivity[j] > 0.0) sum.share += volume[j] * pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             const double share = sum.share[lane] + walls.filling(position[i]).conducting_share;
             correction[i] = 1.0 / std::sqrt(std::max(smallest, share));
@@ -100,4 +96,4 @@ struct KernelCompleteness
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -27,9 +27,9 @@ public:
     /// Mean power over a step, W.
     struct Power
     {
-        double emitted = 0;     ///< by the beam
-        double hit = 0;         ///< of the rays that meet metal
-        double absorbed = 0;    ///< by the particles, summed where it was given to them
+        double emitted = 0;  ///< by the beam
+        double hit = 0;      ///< of the rays that meet metal
+        double absorbed = 0; ///< by the particles, summed where it was given to them
     };
 
     LaserBeam(const Laser& laser, double spacing, int dimensions);
@@ -46,26 +46,25 @@ public:
 private:
     struct Ray
     {
-        double top;             ///< height of the highest particle met so far, m
-        double nearest;         ///< squared distance in the plane, m²
-        Index particle;         ///< that takes the ray, −1 for none
+        double top;     ///< height of the highest particle met so far, m
+        double nearest; ///< squared distance in the plane, m²
+        Index particle; ///< that takes the ray, −1 for none
     };
     struct Candidate
     {
         Index particle;
-        double x, y, z;         ///< relative to the beam's axis in the plane, m
+        double x, y, z; ///< relative to the beam's axis in the plane, m
     };
 
-    template <class Visit>
-    void for_each_ray_within(const Candidate& candidate, const Visit& visit);
+    template <class Visit> void for_each_ray_within(const Candidate& candidate, const Visit& visit);
 
     Laser laser_;
     int dimensions_;
     double spacing_, ray_spacing_, footprint_, reach_, full_power_;
-    int rays_across_, rays_deep_;       ///< along x and y
-    std::vector<double> ray_power_;     ///< W
+    int rays_across_, rays_deep_;   ///< along x and y
+    std::vector<double> ray_power_; ///< W
     std::vector<Ray> rays_;
     std::vector<Candidate> candidates_;
 };
 
-}  // namespace cupel
+} // namespace cupel

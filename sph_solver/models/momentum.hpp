@@ -23,7 +23,7 @@ struct FreeSurfaceMomentum
     const ScalarField& pressure;
     const VectorField& velocity;
     CorrectionMatrix correction;
-    double viscosity;           ///< μ of the liquid, Pa·s
+    double viscosity; ///< μ of the liquid, Pa·s
     VectorField& force;
 
     /// Bounds of ℓ for particles with too few neighbours for a matrix (spray, films of one particle).
@@ -51,8 +51,7 @@ struct FreeSurfaceMomentum
         sum.force -= (weight * (i.pressure + pressure[j])) * pair.offset;
         // Walls have no matrix of their own: the liquid's stands for both.
         Lanes both = dot(pair.offset, i.correction * pair.offset);
-        if (mobility.weight[j] != 0.0)
-            both = 0.5 * (both + dot(pair.offset, broadcast(correction[j]) * pair.offset));
+        if (mobility.weight[j] != 0.0) both = 0.5 * (both + dot(pair.offset, broadcast(correction[j]) * pair.offset));
         const Lanes factor = minimum(maximum(both / (pair.distance * pair.distance), all_lanes(smallest_factor)),
                                      all_lanes(greatest_factor));
         sum.force += (2.0 * viscosity * weight * factor) * (i.velocity - broadcast(velocity[j]));
@@ -79,7 +78,7 @@ struct TwoPhaseMomentum
     const ScalarField& pressure;
     const ScalarField& viscosity;
     const VectorField& velocity;
-    double background_pressure;     ///< p_b, Pa
+    double background_pressure; ///< p_b, Pa
     VectorField& force;
     VectorField& transport_force;
 
@@ -103,8 +102,7 @@ struct TwoPhaseMomentum
     {
         const double volume_j = volume[j], density_j = density[j], viscosity_j = viscosity[j];
         const Lanes weight = (i.volume * i.volume + volume_j * volume_j) * pair.gradient_over_r;
-        const Lanes mean_pressure =
-            (density_j * i.pressure + i.density * pressure[j]) / (i.density + density_j);
+        const Lanes mean_pressure = (density_j * i.pressure + i.density * pressure[j]) / (i.density + density_j);
         const Lanes mean_viscosity = 2.0 * i.viscosity * viscosity_j / (i.viscosity + viscosity_j);
         sum.force -= (weight * mean_pressure) * pair.offset;
         sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(velocity[j]));
@@ -118,4 +116,4 @@ struct TwoPhaseMomentum
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -10,9 +10,9 @@ namespace cupel
 ///   q_r = ε σ_SB (T⁴ − T₀⁴),   q_c = h_c (T − T₀)      [W/m²], positive out of the metal
 struct Radiation
 {
-    double emissivity = 0;                  ///< ε
-    double convection_coefficient = 0;      ///< h_c, W/(m²·K)
-    double surrounding_temperature = 300;   ///< T₀, K
+    double emissivity = 0;                ///< ε
+    double convection_coefficient = 0;    ///< h_c, W/(m²·K)
+    double surrounding_temperature = 300; ///< T₀, K
 
     double radiative_flux(double temperature) const
     {
@@ -26,4 +26,4 @@ struct Radiation
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -14,4 +14,4 @@ inline double recoil_pressure(const VapourPressure& vapour_pressure, double temp
     return 0.54 * vapour_pressure(temperature);
 }
 
-}  // namespace cupel
+} // namespace cupel

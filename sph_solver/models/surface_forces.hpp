@@ -44,4 +44,4 @@ inline Vector recoil_force(double recoil_pressure, const Vector& normal, double 
     return (-recoil_pressure * delta) * normal;
 }
 
-}  // namespace cupel
+} // namespace cupel

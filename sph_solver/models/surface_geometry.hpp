@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "models/term.hpp"
 
@@ -14,24 +15,26 @@ namespace cupel
 struct SurfaceFields
 {
     ScalarField& colour;
-    VectorField& colour_gradient;       ///< −∇c, 1/m: points out of the liquid
-    ScalarField& smoothed_colour;       ///< Σ V W c (free surface), Σ V W c / Σ V W (two phases)
-    ScalarField& companions;            ///< liquid neighbours within two smoothing lengths
-    VectorField& normal;                ///< n̂, out of the liquid
+    VectorField& colour_gradient; ///< −∇c, 1/m: points out of the liquid
+    ScalarField& smoothed_colour; ///< Σ V W c (free surface), Σ V W c / Σ V W (two phases)
+    ScalarField& companions;      ///< liquid or solid neighbours, not walls, within two smoothing lengths
+    VectorField& normal;          ///< n̂, out of the liquid
     VectorField& smoothed_normal;
-    ScalarField& delta;                 ///< δ, 1/m: its integral across the surface is one
-    ScalarField& in_band;               ///< 1 where |∇c| h marks the surface itself
-    ScalarField& depth;                 ///< distance below the surface, positive in the liquid, m
-    ScalarField& raw_curvature;         ///< ∇·n̂, 1/m
+    ScalarField& delta;         ///< δ, 1/m: its integral across the surface is one
+    ScalarField& in_band;       ///< 1 where |∇c| h marks the surface itself
+    ScalarField& depth;         ///< distance below the surface, positive in the liquid, m
+    ScalarField& raw_curvature; ///< ∇·n̂, 1/m
     ScalarField& curvature_valid;
-    ScalarField& curvature;             ///< raw_curvature smoothed over the band
+    ScalarField& curvature; ///< raw_curvature smoothed over the band
 
     static SurfaceFields register_in(Particles& particles)
     {
-        const auto scalar = [&](const char* name, const char* unit) -> ScalarField&
-        { return particles.add_scalar({name, unit}); };
-        const auto vector = [&](const char* name, const char* unit) -> VectorField&
-        { return particles.add_vector({name, unit}); };
+        const auto scalar = [&](const char* name, const char* unit) -> ScalarField& {
+            return particles.add_scalar({name, unit});
+        };
+        const auto vector = [&](const char* name, const char* unit) -> VectorField& {
+            return particles.add_vector({name, unit});
+        };
         return {scalar("colour", "1"),          vector("colour_gradient", "1/m"), scalar("smoothed_colour", "1"),
                 scalar("companions", "1"),      vector("surface_normal", "1"),    vector("smoothed_normal", "1"),
                 scalar("surface_delta", "1/m"), scalar("surface_band", "1"),      scalar("surface_depth", "m"),
@@ -42,10 +45,10 @@ struct SurfaceFields
 /// Thresholds of the surface band, all relative to the smoothing length h.
 struct SurfaceThresholds
 {
-    double band = 0.25;                 ///< |∇c| h above which a particle is at the surface
-    double curvature_two_phase = 0.1;   ///< δ h above which curvature is fitted
+    double band = 0.25;               ///< |∇c| h above which a particle is at the surface
+    double curvature_two_phase = 0.1; ///< δ h above which curvature is fitted
     double curvature_free_surface = 0.2;
-    double fewest_companions = 10.0 / 32.0;     ///< share of a full neighbourhood below which there is only spray
+    double fewest_companions = 10.0 / 32.0; ///< share of a full neighbourhood below which there is only spray
 };
 
 /// Colour gradient (Morris 2000, eq. 9):
@@ -59,6 +62,7 @@ struct ColourGradient
     bool two_phase;
     double smoothing_length;
     const ScalarField& volume;
+    const std::vector<Kind>& kind;
     SurfaceFields surface;
 
     struct Near
@@ -72,18 +76,15 @@ struct ColourGradient
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const
-    {
-        return {two_phase ? surface.colour.lanes(first) : Lanes{}};
-    }
+    Near near(Index first) const { return {two_phase ? surface.colour.lanes(first) : Lanes{}}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double colour_j = surface.colour[j], volume_j = volume[j];
         sum.gradient -= (volume_j * (colour_j - i.colour) * pair.gradient_over_r) * pair.offset;
         sum.colour += (volume_j * colour_j) * pair.kernel;
         sum.weight += volume_j * pair.kernel;
-        const double mobile = mobility.weight[j];
-        sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(mobile) : Lanes{};
+        if (kind[static_cast<std::size_t>(j)] != Kind::wall)
+            sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(1.0) : Lanes{};
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -103,8 +104,7 @@ struct NormalSmoothing
     SurfaceFields surface;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         VectorLanes normal{};
@@ -113,24 +113,20 @@ struct NormalSmoothing
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0)
-                return false;
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0) return false;
         return true;
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
     {
         const double delta_j = surface.delta[j];
-        if (delta_j > 0.0)
-            sum.normal += pair.kernel * broadcast(delta_j * surface.normal[j]);
+        if (delta_j > 0.0) sum.normal += pair.kernel * broadcast(delta_j * surface.normal[j]);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0 || !(surface.delta[i] > 0.0))
-                continue;
+            if (mobility.weight[i] == 0.0 || !(surface.delta[i] > 0.0)) continue;
             const Vector normal{sum.normal.x[lane], sum.normal.y[lane], sum.normal.z[lane]};
             const double length = norm(normal);
             surface.smoothed_normal.set(i, length > 0.0 ? (1.0 / length) * normal : surface.normal[i]);
@@ -146,8 +142,7 @@ struct SurfaceNeighbourhood
     SurfaceFields surface;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes found{};
@@ -156,15 +151,13 @@ struct SurfaceNeighbourhood
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0)
-                return false;
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0) return false;
         return true;
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] != 0.0 && surface.in_band[j] != 0.0)
-            sum.found += pair.kernel;
+        if (mobility.weight[j] != 0.0 && surface.in_band[j] != 0.0) sum.found += pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -184,8 +177,8 @@ struct TangentPlaneCurvature
 {
     Mobility mobility;
     int dimensions;
-    double smallest_delta;      ///< below it a particle takes no part, 1/m
-    double greatest_curvature;  ///< limit, 1/m
+    double smallest_delta;     ///< below it a particle takes no part, 1/m
+    double greatest_curvature; ///< limit, 1/m
     const ScalarField& volume;
     SurfaceFields surface;
 
@@ -195,22 +188,20 @@ struct TangentPlaneCurvature
     };
     struct Sum
     {
-        Lanes xx{}, xy{}, yy{};             // Σ w Δx ⊗ Δx
-        Lanes n1_x{}, n1_y{}, n2_x{}, n2_y{};   // Σ w Δn̂ ⊗ Δx
+        Lanes xx{}, xy{}, yy{};               // Σ w Δx ⊗ Δx
+        Lanes n1_x{}, n1_y{}, n2_x{}, n2_y{}; // Σ w Δn̂ ⊗ Δx
     };
 
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] >= smallest_delta)
-                return false;
+            if (mobility.weight[i] != 0.0 && surface.delta[i] >= smallest_delta) return false;
         return true;
     }
     Near near(Index first) const
     {
         const VectorLanes normal = surface.normal.lanes(first);
-        if (dimensions == 2)
-            return {normal, {-normal.z, Lanes{}, normal.x}, {Lanes{}, all_lanes(1.0), Lanes{}}};
+        if (dimensions == 2) return {normal, {-normal.z, Lanes{}, normal.x}, {Lanes{}, all_lanes(1.0), Lanes{}}};
         // Any vector that is not along the normal starts the pair of tangents.
         const LaneMask along_x = normal.x * normal.x > all_lanes(0.49);
         const VectorLanes start{along_x ? Lanes{} : all_lanes(1.0), along_x ? all_lanes(1.0) : Lanes{}, Lanes{}};
@@ -221,8 +212,7 @@ struct TangentPlaneCurvature
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double delta_j = surface.delta[j];
-        if (!(delta_j >= smallest_delta))
-            return;
+        if (!(delta_j >= smallest_delta)) return;
         const Lanes weight = (-volume[j] * delta_j) * pair.gradient_over_r;
         const VectorLanes change = broadcast(surface.normal[j]) - i.normal;
         const Lanes x1 = -dot(pair.offset, i.tangent_1), x2 = -dot(pair.offset, i.tangent_2);
@@ -237,28 +227,21 @@ struct TangentPlaneCurvature
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0)
-                continue;
+            if (mobility.weight[i] == 0.0) continue;
             surface.raw_curvature[i] = 0.0;
             surface.curvature_valid[i] = 0.0;
-            if (!(surface.delta[i] >= smallest_delta))
-                continue;
+            if (!(surface.delta[i] >= smallest_delta)) continue;
             const double xx = sum.xx[lane], xy = sum.xy[lane], yy = sum.yy[lane];
             double curvature = 0.0;
-            if (dimensions == 2)
-            {
-                if (!(xx > 0.0))
-                    continue;
+            if (dimensions == 2) {
+                if (!(xx > 0.0)) continue;
                 curvature = sum.n1_x[lane] / xx;
             }
-            else
-            {
+            else {
                 const double determinant = xx * yy - xy * xy;
-                if (!(determinant > 1e-3 * (xx + yy) * (xx + yy)))
-                    continue;
+                if (!(determinant > 1e-3 * (xx + yy) * (xx + yy))) continue;
                 curvature = (sum.n1_x[lane] * yy - sum.n1_y[lane] * xy + sum.n2_y[lane] * xx - sum.n2_x[lane] * xy) /
                             determinant;
             }
@@ -275,8 +258,7 @@ struct CurvatureSmoothing
     SurfaceFields surface;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes curvature{}, weight{};
@@ -285,8 +267,7 @@ struct CurvatureSmoothing
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0)
-                return false;
+            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0) return false;
         return true;
     }
     Near near(Index) const { return {}; }
@@ -298,15 +279,13 @@ struct CurvatureSmoothing
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0)
-                continue;
+            if (mobility.weight[i] == 0.0) continue;
             const bool bears_force = surface.delta[i] > 0.0 && sum.weight[lane] > 0.0;
             surface.curvature[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
         }
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -15,15 +15,13 @@ struct Mobility
     bool none_in(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (weight[i] != 0.0)
-                return false;
+            if (weight[i] != 0.0) return false;
         return true;
     }
     bool all_in(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (weight[i] == 0.0)
-                return false;
+            if (weight[i] == 0.0) return false;
         return true;
     }
 };
@@ -33,8 +31,7 @@ template <class Choose>
 void store_if(ScalarField& field, const Cluster& cluster, const Lanes& values, const Choose& choose)
 {
     for (int lane = 0; lane < cluster.count; ++lane)
-        if (choose(cluster.first + lane))
-            field[cluster.first + lane] = values[lane];
+        if (choose(cluster.first + lane)) field[cluster.first + lane] = values[lane];
 }
 template <class Choose>
 void store_if(VectorField& field, const Cluster& cluster, const VectorLanes& values, const Choose& choose)
@@ -44,4 +41,4 @@ void store_if(VectorField& field, const Cluster& cluster, const VectorLanes& val
             field.set(cluster.first + lane, {values.x[lane], values.y[lane], values.z[lane]});
 }
 
-}  // namespace cupel
+} // namespace cupel

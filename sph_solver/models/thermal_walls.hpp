@@ -12,7 +12,8 @@
 namespace cupel
 {
 
-/// The domain's walls as heat sees them: flat, of prescribed temperature or adiabatic. Sides that are not walls are open.
+/// The domain's walls as heat sees them: flat, of prescribed temperature or adiabatic. Sides that are not walls are
+/// open.
 class ThermalWalls
 {
 public:
@@ -20,15 +21,13 @@ public:
     ThermalWalls(const Domain& domain, const Kernel& kernel, double spacing, int dimensions)
         : layers_(kernel, spacing, dimensions), support_(kernel.support()), nearest_(0.2 * spacing)
     {
-        for (std::size_t side = 0; side < 6; ++side)
-        {
+        for (std::size_t side = 0; side < 6; ++side) {
             const std::size_t axis = side / 2;
             const auto& boundary = domain.boundaries[side];
-            if (!boundary || boundary->kind != BoundaryKind::wall || (axis == 1 && dimensions == 2))
-                continue;
+            if (!boundary || boundary->kind != BoundaryKind::wall || (axis == 1 && dimensions == 2)) continue;
             const bool upper = side % 2 == 1;
-            planes_.push_back({axis, upper ? domain.upper[axis] : domain.lower[axis], upper ? -1.0 : 1.0,
-                               boundary->temperature});
+            planes_.push_back(
+                {axis, upper ? domain.upper[axis] : domain.lower[axis], upper ? -1.0 : 1.0, boundary->temperature});
         }
     }
 
@@ -40,21 +39,20 @@ public:
     }
 
     /// What walls fill of a particle's kernel: all of them for the surface (their gradient ∇c, 1/m), those with a
-    /// temperature for conduction (their share of it, 1). Where walls meet, no part is counted twice.
+    /// temperature for conduction as well (their share of it, 1). Where walls meet, no part is counted twice.
     struct Filling
     {
         Vector gradient{};
+        double share = 0;
         double conducting_share = 0;
     };
     Filling filling(const Vector& position) const
     {
         Filling result;
         double open = 1.0, open_to_conduction = 1.0, before_adiabatic = 1.0;
-        for (const Plane& plane : planes_)
-        {
+        for (const Plane& plane : planes_) {
             const double d = plane.distance(position);
-            if (d >= support_)
-                continue;
+            if (d >= support_) continue;
             const double share = layers_.share(d), slope = layers_.slope(d);
             // ∇[1 − Π(1 − c)] built up factor by factor; c falls away from the wall.
             result.gradient = (1.0 - share) * result.gradient;
@@ -62,6 +60,7 @@ public:
             open *= 1.0 - share;
             (plane.temperature ? open_to_conduction : before_adiabatic) *= 1.0 - share;
         }
+        result.share = 1.0 - open;
         result.conducting_share = before_adiabatic * (1.0 - open_to_conduction);
         return result;
     }
@@ -76,8 +75,7 @@ public:
     {
         double sum = 0.0;
         for (const Plane& plane : planes_)
-            if (plane.temperature)
-            {
+            if (plane.temperature) {
                 const double d = plane.distance(position);
                 if (d < support_)
                     sum += 2.0 * layers_.slope(d) * (*plane.temperature - temperature) / std::max(d, nearest_);
@@ -90,8 +88,7 @@ public:
     {
         const Plane* nearest = nullptr;
         for (const Plane& plane : planes_)
-            if (!nearest || plane.distance(position) < nearest->distance(position))
-                nearest = &plane;
+            if (!nearest || plane.distance(position) < nearest->distance(position)) nearest = &plane;
         return nearest ? nearest->temperature : std::nullopt;
     }
 
@@ -102,8 +99,7 @@ private:
         double place, inward;
         std::optional<double> temperature;
 
-        template <class V>
-        static auto& component_of(V& v, std::size_t axis)
+        template <class V> static auto& component_of(V& v, std::size_t axis)
         {
             return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
         }
@@ -116,4 +112,4 @@ private:
     std::vector<Plane> planes_;
 };
 
-}  // namespace cupel
+} // namespace cupel

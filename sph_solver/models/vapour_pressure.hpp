@@ -6,18 +6,18 @@
 namespace cupel
 {
 
-inline constexpr double gas_constant = 8.314462618;             ///< R, J/(mol·K)
-inline constexpr double stefan_boltzmann = 5.670374419e-8;      ///< σ_SB, W/(m²·K⁴)
+inline constexpr double gas_constant = 8.314462618;        ///< R, J/(mol·K)
+inline constexpr double stefan_boltzmann = 5.670374419e-8; ///< σ_SB, W/(m²·K⁴)
 
 /// Saturation pressure of the metal's vapour (Clausius and Clapeyron):
 ///
 ///   p_s(T) = p₀ exp[(L_v M/R)(1/T_b − 1/T)]      [Pa]
 struct VapourPressure
 {
-    double ambient_pressure = 0;        ///< p₀, Pa: the boiling temperature belongs to it
-    double boiling_temperature = 1;     ///< T_b, K
-    double vaporization_heat = 0;       ///< L_v, J/kg
-    double molar_mass = 0;              ///< M, kg/mol
+    double ambient_pressure = 0;    ///< p₀, Pa: the boiling temperature belongs to it
+    double boiling_temperature = 1; ///< T_b, K
+    double vaporization_heat = 0;   ///< L_v, J/kg
+    double molar_mass = 0;          ///< M, kg/mol
 
     double operator()(double temperature) const
     {
@@ -26,4 +26,4 @@ struct VapourPressure
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "models/term.hpp"
 
@@ -14,20 +15,22 @@ namespace cupel
 ///   v_w = 2 v_wall − Σ v_f W / Σ W   (no slip);   v_w = ṽ − 2 (ṽ·n) n, ṽ = Σ v_f W / Σ W   (free slip)      [m/s]
 ///
 /// Walls are at rest here. Without a gas on the other side a wall does not pull: then p_w is kept at or above zero.
+/// Solid metal is of one piece with its melt and may pull: else what melts would be thrown off by every positive
+/// pressure and held by no negative one.
 struct WallExtrapolation
 {
     Mobility mobility;
     const ScalarField& density;
-    Vector gravity;             ///< m/s²
-    bool may_pull;              ///< two phases fill the space: a wall may take negative pressure
-    const VectorField* wall_normal;     ///< null where the scene has only solids
+    Vector gravity;      ///< m/s²
+    bool walls_may_pull; ///< two phases fill the space: a wall may take negative pressure
+    const std::vector<Kind>& kind;
+    const VectorField* wall_normal; ///< null where the scene has only solids
     const ScalarField* free_slip;
     ScalarField& pressure;
     VectorField& velocity;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes weight{}, pressure{};
@@ -39,8 +42,7 @@ struct WallExtrapolation
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
     {
         const double liquid = mobility.weight[j];
-        if (liquid == 0.0)
-            return;
+        if (liquid == 0.0) return;
         sum.weight += pair.kernel;
         sum.pressure += pressure[j] * pair.kernel;
         sum.head += (density[j] * pair.kernel) * pair.offset;
@@ -48,13 +50,10 @@ struct WallExtrapolation
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-        {
+        for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] != 0.0)
-                continue;
-            if (!(sum.weight[lane] > 0.0))
-            {
+            if (mobility.weight[i] != 0.0) continue;
+            if (!(sum.weight[lane] > 0.0)) {
                 pressure[i] = 0.0;
                 velocity.set(i, {});
                 continue;
@@ -62,9 +61,9 @@ struct WallExtrapolation
             const double scale = 1.0 / sum.weight[lane];
             const Vector head{sum.head.x[lane], sum.head.y[lane], sum.head.z[lane]};
             const double extrapolated = scale * (sum.pressure[lane] + dot(gravity, head));
+            const bool may_pull = walls_may_pull || kind[static_cast<std::size_t>(i)] == Kind::solid;
             pressure[i] = may_pull ? extrapolated : std::max(0.0, extrapolated);
-            const Vector mean{scale * sum.velocity.x[lane], scale * sum.velocity.y[lane],
-                              scale * sum.velocity.z[lane]};
+            const Vector mean{scale * sum.velocity.x[lane], scale * sum.velocity.y[lane], scale * sum.velocity.z[lane]};
             if (free_slip && (*free_slip)[i] != 0.0)
                 velocity.set(i, mean - (2.0 * dot(mean, (*wall_normal)[i])) * (*wall_normal)[i]);
             else
@@ -73,4 +72,4 @@ struct WallExtrapolation
     }
 };
 
-}  // namespace cupel
+} // namespace cupel

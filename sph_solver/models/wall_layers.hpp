@@ -40,8 +40,7 @@ private:
     {
         constexpr int points = 400;
         const double reach = std::sqrt(kernel.support() * kernel.support() - s * s), width = reach / points;
-        for (int q = 0; q < points; ++q)
-        {
+        for (int q = 0; q < points; ++q) {
             const double rho = (q + 0.5) * width;
             const double measure = (dimensions == 2 ? 2.0 : 2.0 * std::numbers::pi * rho) * width * spacing;
             const auto w = kernel(std::sqrt(s * s + rho * rho));
@@ -53,8 +52,7 @@ private:
     double interpolate(const std::array<double, intervals + 1>& table, double distance) const
     {
         const double place = std::max(distance, 0.0) / step_;
-        if (!(place < static_cast<double>(intervals)))
-            return 0.0;
+        if (!(place < static_cast<double>(intervals))) return 0.0;
         const auto k = static_cast<std::size_t>(place);
         const double part = place - static_cast<double>(k);
         return table[k] * (1.0 - part) + table[k + 1] * part;
@@ -64,4 +62,4 @@ private:
     std::array<double, intervals + 1> share_{}, slope_{};
 };
 
-}  // namespace cupel
+} // namespace cupel

@@ -15,26 +15,28 @@ namespace cupel
 ///
 ///   n̂_w = sin θ t̂ + cos θ N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's normal,
 ///
-/// the signed depth s below the interface extrapolated to it, s = Σ W_wj δ_j (x_j + φ_j n̂_j − x_w)·n̂_w / Σ W_wj δ_j, and
-/// with it the colour c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in the smoothing of normals and
-/// in the curvature fit like any particle of the band, and the liquid's own normals are never overwritten. Sums are
+/// the signed depth s below the interface extrapolated to it, s = Σ W_wj δ_j (x_j + φ_j n̂_j − x_w)·n̂_w / Σ W_wj δ_j,
+/// and with it the colour c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in the smoothing of normals
+/// and in the curvature fit like any particle of the band, and the liquid's own normals are never overwritten. Sums are
 /// taken for the wall's surface layer; deeper layers continue it along the wall's normal: s + d cos θ.
+/// Melt on its own solid has no such line to correct: there the metal's surface is followed as one, melt and solid
+/// together, and the edge of a pool stands where the metal melts, as in a volume-of-fluid model.
 /// Source: own derivation after the normal correction of Breinlinger et al. 2013, which the paper uses (section 2.5.2).
 struct WallInterface
 {
     Mobility mobility;
-    double contact_angle;       ///< through the primary liquid, rad
-    double reach;               ///< liquid further than this from the wall is not asked, m
-    double smallest_delta;      ///< 1/m
-    double smallest_lateral;    ///< of −∇c, 1/m
+    double contact_angle;    ///< through the primary liquid, rad
+    double reach;            ///< liquid further than this from the wall is not asked, m
+    double smallest_delta;   ///< 1/m
+    double smallest_lateral; ///< of −∇c, 1/m
     const Particles& particles;
     const VectorField& wall_normal;
     SurfaceFields surface;
-    ScalarField& weight_sum;    ///< Σ W δ
-    ScalarField& depth_sum;     ///< Σ W δ s
-    VectorField& lateral_sum;   ///< Σ W δ t̂
-    ScalarField& primary_sum;   ///< Σ W over the primary liquid
-    ScalarField& other_sum;     ///< Σ W over the surrounding
+    ScalarField& weight_sum;  ///< Σ W δ
+    ScalarField& depth_sum;   ///< Σ W δ s
+    VectorField& lateral_sum; ///< Σ W δ t̂
+    ScalarField& primary_sum; ///< Σ W over the primary liquid
+    ScalarField& other_sum;   ///< Σ W over the surrounding
 
     struct Near
     {
@@ -54,19 +56,16 @@ struct WallInterface
     bool idle(const Cluster& cluster) const
     {
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (stands_for_surface(i))
-                return false;
+            if (stands_for_surface(i)) return false;
         return true;
     }
     Near near(Index first) const { return {particles.position.lanes(first), wall_normal.lanes(first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0)
-            return;
+        if (mobility.weight[j] == 0.0) return;
         (particles.material[static_cast<std::size_t>(j)] == 0 ? sum.primary : sum.other) += pair.kernel;
         const double delta_j = surface.delta[j];
-        if (!(delta_j >= smallest_delta))
-            return;
+        if (!(delta_j >= smallest_delta)) return;
         // Distance of j above the wall and the part of its colour gradient along the wall, lane by lane.
         const Lanes height = -dot(pair.offset, i.wall_normal);
         const VectorLanes gradient = broadcast(surface.colour_gradient[j]);
@@ -93,31 +92,4 @@ struct WallInterface
     }
 };
 
-/// Wetting where liquid metal runs over its own solid, whose surface is curved and rough (Breinlinger et al. 2013, the
-/// normal correction that the paper names in section 2.5.2): near the solid the surface normal is turned toward
-///
-///   n̂ = sin θ t̂ + cos θ N,   N = −∇c_s/|∇c_s| out of the solid, t̂ the part of n̂ along the solid,
-///
-/// by the share f = min(1, c_s / ½) that grows from 0 away from the solid to 1 at its surface.
-/// colour_gradient is −∇c_s of the solid [1/m], solid_colour c_s [1].
-inline Vector wetted_normal(const Vector& normal, const Vector& solid_gradient, double solid_colour,
-                            double contact_angle)
-{
-    const double slope = norm(solid_gradient);
-    if (!(slope > 0.0) || !(solid_colour > 0.0))
-        return normal;
-    const Vector out_of_solid = (1.0 / slope) * solid_gradient;
-    const Vector along = normal - dot(normal, out_of_solid) * out_of_solid;
-    const double length = norm(along);
-    // A surface that lies parallel to the solid has no contact line here.
-    if (length < 1e-3)
-        return normal;
-    const Vector prescribed =
-        (std::sin(contact_angle) / length) * along + std::cos(contact_angle) * out_of_solid;
-    const double share = std::min(1.0, 2.0 * solid_colour);
-    const Vector blended = (1.0 - share) * normal + share * prescribed;
-    const double blended_length = norm(blended);
-    return blended_length > 1e-9 ? (1.0 / blended_length) * blended : normal;
-}
-
-}  // namespace cupel
+} // namespace cupel

@@ -39,28 +39,36 @@ GuardLimits guard_limits(const Simulation& simulation)
         limits.lowest_temperature = simulation.heat()->lowest_possible_temperature() - 1.0;
         limits.highest_temperature = 20000.0;
     }
-    // Beyond an open side a particle may fly; beyond a wall it has gone through it.
+    // A particle beyond a wall has gone through it; beyond any other side it has flown out and is retired.
+    const bool walled = simulation.particles().has("wall_normal");
     const auto margin = [&](std::size_t side) {
         const auto& boundary = definition.domain.boundaries[side];
-        const bool open = boundary && boundary->kind == BoundaryKind::open;
-        return open ? std::numeric_limits<double>::infinity() : 1.0 * definition.spacing;
+        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
+        return stops ? definition.spacing : std::numeric_limits<double>::infinity();
     };
     const auto& lower = definition.domain.lower;
     const auto& upper = definition.domain.upper;
     limits.lower = {lower[0] - margin(0), lower[1] - margin(2), lower[2] - margin(4)};
     limits.upper = {upper[0] + margin(1), upper[1] + margin(3), upper[2] + margin(5)};
-    if (definition.dimensions == 2) {
-        limits.lower.y = -definition.spacing;
-        limits.upper.y = definition.spacing;
-    }
     return limits;
+}
+
+/// A run without a checkpoint begins anew, whatever was asked for; a folder's name never ends in a slash.
+RecorderOptions with_resumable(RecorderOptions options)
+{
+    if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
+    const auto checkpoints = RunFolder{options.folder}.checkpoints();
+    options.resume =
+        options.resume && std::filesystem::is_directory(checkpoints) && newest_checkpoint(checkpoints).has_value();
+    return options;
 }
 
 std::vector<std::string> history_columns(const Simulation& simulation)
 {
     std::vector<std::string> columns{"time_s", "step", "time_step_s", "moving_particles"};
     if (simulation.flow())
-        columns.insert(columns.end(), {"kinetic_energy_J", "greatest_speed_m/s", "mass_kg", "volume_m3"});
+        columns.insert(columns.end(),
+                       {"kinetic_energy_J", "greatest_speed_m/s", "mass_kg", "volume_m3", "escaped_mass_kg"});
     if (simulation.heat())
         columns.insert(columns.end(),
                        {"stored_energy_J", "laser_absorbed_J", "lost_energy_J", "highest_temperature_K"});
@@ -70,16 +78,17 @@ std::vector<std::string> history_columns(const Simulation& simulation)
 } // namespace
 
 Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
-    : simulation_(simulation), options_(options), folder_(open_run_folder(options.folder, options.resume)),
-      log_(open_run_log(folder_.log(), options.resume)), provenance_{code_identity(),
-                                                                     simulation.scene().definition.name,
-                                                                     simulation.scene().definition.hash,
-                                                                     simulation.scene().definition.resolved.dump()}
+    : simulation_(simulation), options_(with_resumable(options)),
+      folder_(open_run_folder(options_.folder, options_.resume)),
+      log_(open_run_log(folder_.log(), options_.resume)), provenance_{code_identity(),
+                                                                      simulation.scene().definition.name,
+                                                                      simulation.scene().definition.hash,
+                                                                      simulation.scene().definition.resolved.dump()}
 {
     guards_.emplace(simulation_.particles(), guard_limits(simulation_));
     checkpoints_.emplace(folder_.checkpoints(), provenance_,
                          std::chrono::duration<double>(seconds_between_checkpoints));
-    const auto checkpoint = options.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
+    const auto checkpoint = options_.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
     if (checkpoint)
         resume(*checkpoint);
     else
@@ -237,7 +246,7 @@ void Recorder::add_history_row()
         volume_.end = primary_volume();
         greatest_volume_error_ =
             std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
-        row.insert(row.end(), {kinetic, std::sqrt(greatest), mass_.end, volume_.end});
+        row.insert(row.end(), {kinetic, std::sqrt(greatest), mass_.end, volume_.end, simulation_.escaped_mass()});
     }
     if (const ThermalStep* heat = simulation_.heat()) {
         const HeatBooks& books = heat->books();
@@ -258,7 +267,8 @@ void Recorder::stop(const Diagnosis& diagnosis)
 
 Ending Recorder::finish()
 {
-    add_history_row();
+    // An interrupted run has just written the row of its checkpoint; the resumed one goes on from there.
+    if (*ending_ != Ending::interrupted) add_history_row();
     history_->flush();
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {

@@ -10,20 +10,16 @@ namespace cupel
 namespace
 {
 
-template <class Field>
-Field* find(const std::vector<std::unique_ptr<Field>>& fields, std::string_view name)
+template <class Field> Field* find(const std::vector<std::unique_ptr<Field>>& fields, std::string_view name)
 {
     for (const auto& field : fields)
-        if (field->info.name == name)
-            return field.get();
+        if (field->info.name == name) return field.get();
     return nullptr;
 }
 
-template <class Field>
-Field& get(const std::vector<std::unique_ptr<Field>>& fields, std::string_view name)
+template <class Field> Field& get(const std::vector<std::unique_ptr<Field>>& fields, std::string_view name)
 {
-    if (Field* field = find(fields, name))
-        return *field;
+    if (Field* field = find(fields, name)) return *field;
     throw std::logic_error("no particle field '" + std::string(name) + "' is registered in this scene");
 }
 
@@ -34,8 +30,7 @@ void permute_array(Array& values, Array& scratch, std::span<const Index> order)
     std::copy_n(scratch.begin(), order.size(), values.begin());
 }
 
-template <class T>
-void permute_vector(std::vector<T>& values, std::span<const Index> order)
+template <class T> void permute_vector(std::vector<T>& values, std::span<const Index> order)
 {
     std::vector<T> sorted(values.size());
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -43,9 +38,12 @@ void permute_vector(std::vector<T>& values, std::span<const Index> order)
     values.swap(sorted);
 }
 
-std::size_t padded(Index count) { return static_cast<std::size_t>(count) + lane_count; }
+std::size_t padded(Index count)
+{
+    return static_cast<std::size_t>(count) + lane_count;
+}
 
-}  // namespace
+} // namespace
 
 Particles::Particles(Index count)
     : count_(count), kind(static_cast<std::size_t>(count), Kind::fluid), material(static_cast<std::size_t>(count), 0),
@@ -60,31 +58,42 @@ Particles::Particles(Index count)
 
 ScalarField& Particles::add_scalar(const FieldInfo& info, double initial)
 {
-    if (ScalarField* field = find(scalars_, info.name))
-        return *field;
-    if (find(vectors_, info.name))
-        throw std::logic_error("particle field '" + info.name + "' is a vector");
+    if (ScalarField* field = find(scalars_, info.name)) return *field;
+    if (find(vectors_, info.name)) throw std::logic_error("particle field '" + info.name + "' is a vector");
     scalars_.push_back(std::make_unique<ScalarField>(ScalarField{info, Array(padded(count_), initial)}));
     return *scalars_.back();
 }
 
 VectorField& Particles::add_vector(const FieldInfo& info)
 {
-    if (VectorField* field = find(vectors_, info.name))
-        return *field;
-    if (find(scalars_, info.name))
-        throw std::logic_error("particle field '" + info.name + "' is a scalar");
+    if (VectorField* field = find(vectors_, info.name)) return *field;
+    if (find(scalars_, info.name)) throw std::logic_error("particle field '" + info.name + "' is a scalar");
     const Array zero(padded(count_), 0.0);
     vectors_.push_back(std::make_unique<VectorField>(VectorField{info, zero, zero, zero}));
     return *vectors_.back();
 }
 
-bool Particles::has(std::string_view name) const { return find(scalars_, name) || find(vectors_, name); }
+bool Particles::has(std::string_view name) const
+{
+    return find(scalars_, name) || find(vectors_, name);
+}
 
-ScalarField& Particles::scalar(std::string_view name) { return get(scalars_, name); }
-const ScalarField& Particles::scalar(std::string_view name) const { return get(scalars_, name); }
-VectorField& Particles::vector(std::string_view name) { return get(vectors_, name); }
-const VectorField& Particles::vector(std::string_view name) const { return get(vectors_, name); }
+ScalarField& Particles::scalar(std::string_view name)
+{
+    return get(scalars_, name);
+}
+const ScalarField& Particles::scalar(std::string_view name) const
+{
+    return get(scalars_, name);
+}
+VectorField& Particles::vector(std::string_view name)
+{
+    return get(vectors_, name);
+}
+const VectorField& Particles::vector(std::string_view name) const
+{
+    return get(vectors_, name);
+}
 
 void Particles::permute(std::span<const Index> order)
 {
@@ -115,4 +124,4 @@ std::size_t Particles::bytes() const
            static_cast<std::size_t>(count_) * (sizeof(Kind) + 1 + 3 * sizeof(Index));
 }
 
-}  // namespace cupel
+} // namespace cupel

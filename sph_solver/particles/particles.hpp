@@ -16,17 +16,13 @@ namespace cupel
 {
 
 /// Allocates on cache lines, so that a cluster's load touches as few of them as possible.
-template <class T>
-struct CacheLineAllocator
+template <class T> struct CacheLineAllocator
 {
     using value_type = T;
     static constexpr std::align_val_t alignment{64};
 
     CacheLineAllocator() = default;
-    template <class U>
-    CacheLineAllocator(const CacheLineAllocator<U>&)
-    {
-    }
+    template <class U> CacheLineAllocator(const CacheLineAllocator<U>&) {}
     T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), alignment)); }
     void deallocate(T* pointer, std::size_t) { ::operator delete(pointer, alignment); }
     bool operator==(const CacheLineAllocator&) const = default;
@@ -35,19 +31,10 @@ struct CacheLineAllocator
 using Array = std::vector<double, CacheLineAllocator<double>>;
 
 /// What a particle is. A solid particle is metal that may melt; a wall particle never moves and never melts.
-enum class Kind : std::uint8_t
-{
-    fluid = 0,
-    solid = 1,
-    wall = 2
-};
+enum class Kind : std::uint8_t { fluid = 0, solid = 1, wall = 2 };
 
 /// Whether a field goes into the VTK snapshots. Every field is sorted and checkpointed, whatever it is.
-enum class Output : bool
-{
-    no,
-    yes
-};
+enum class Output : bool { no, yes };
 
 struct FieldInfo
 {
@@ -152,4 +139,4 @@ public:
     VectorField& velocity;
 };
 
-}  // namespace cupel
+} // namespace cupel

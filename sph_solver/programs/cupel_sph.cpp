@@ -23,15 +23,14 @@ int run(const std::string& resolved_case, const cupel::RecorderOptions& options)
 {
     cupel::Simulation simulation(cupel::place_particles(cupel::read_resolved_case(resolved_case)));
     cupel::Recorder recorder(simulation, options);
-    while (!recorder.finished())
-    {
+    while (!recorder.finished()) {
         simulation.step(recorder.longest_step());
         recorder.after_step();
     }
     return static_cast<int>(recorder.finish());
 }
 
-}  // namespace
+} // namespace
 
 int main(int argument_count, char** arguments)
 {
@@ -45,28 +44,23 @@ int main(int argument_count, char** arguments)
     command->add_option("--output", folder, "folder of the result")->required();
     command->add_option("--threads", options.threads, "number of threads")->check(CLI::Range(1, 1024));
     command->add_flag("--resume", options.resume, "go on from the newest checkpoint in the folder");
-    try
-    {
+    try {
         program.parse(argument_count, arguments);
     }
-    catch (const CLI::ParseError& error)
-    {
+    catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? 0 : exit_refused;
     }
     options.folder = folder;
     omp_set_num_threads(options.threads);
     cupel::catch_stop_signals();
-    try
-    {
+    try {
         return run(resolved_case, options);
     }
-    catch (const cupel::CaseError& error)
-    {
+    catch (const cupel::CaseError& error) {
         std::fprintf(stderr, "cupel_sph: %s\n", error.what());
         return exit_refused;
     }
-    catch (const std::exception& error)
-    {
+    catch (const std::exception& error) {
         std::fprintf(stderr, "cupel_sph: %s\n", error.what());
         return exit_stopped;
     }

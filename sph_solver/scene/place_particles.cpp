@@ -42,8 +42,9 @@ Lattice make_lattice(const Case& definition)
 {
     const auto& lower = definition.domain.lower;
     const auto& upper = definition.domain.upper;
-    const auto cells = [&](std::size_t axis)
-    { return static_cast<int>(std::lround((upper[axis] - lower[axis]) / definition.spacing)); };
+    const auto cells = [&](std::size_t axis) {
+        return static_cast<int>(std::lround((upper[axis] - lower[axis]) / definition.spacing));
+    };
     return {{lower[0], lower[1], lower[2]},
             definition.spacing,
             {cells(0), definition.dimensions == 2 ? 1 : cells(1), cells(2)}};
@@ -66,12 +67,11 @@ class FillingGrid
 {
 public:
     FillingGrid(const Lattice& lattice, std::optional<Filling> background)
-        : lattice_(lattice), cells_(static_cast<std::size_t>(lattice.cells[0]) *
-                                        static_cast<std::size_t>(lattice.cells[1]) *
-                                        static_cast<std::size_t>(lattice.cells[2]),
-                                    background)
-    {
-    }
+        : lattice_(lattice),
+          cells_(static_cast<std::size_t>(lattice.cells[0]) * static_cast<std::size_t>(lattice.cells[1]) *
+                     static_cast<std::size_t>(lattice.cells[2]),
+                 background)
+    {}
 
     std::optional<Filling>& at(const std::array<int, 3>& cell)
     {
@@ -88,8 +88,7 @@ public:
         std::array<int, 3> begin{}, end{};
         const std::array<double, 3> low{lower.x, lower.y, lower.z}, high{upper.x, upper.y, upper.z};
         const std::array<double, 3> origin{lattice_.lower.x, lattice_.lower.y, lattice_.lower.z};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             const bool flat = axis == 1 && lattice_.cells[1] == 1;
             const double first = std::floor((low[axis] - origin[axis]) / lattice_.spacing);
             const double last = std::ceil((high[axis] - origin[axis]) / lattice_.spacing);
@@ -100,8 +99,7 @@ public:
         for (cell[2] = begin[2]; cell[2] < end[2]; ++cell[2])
             for (cell[1] = begin[1]; cell[1] < end[1]; ++cell[1])
                 for (cell[0] = begin[0]; cell[0] < end[0]; ++cell[0])
-                    if (inside(lattice_.point(cell)))
-                        at(cell) = filling;
+                    if (inside(lattice_.point(cell))) at(cell) = filling;
     }
 
 private:
@@ -109,19 +107,20 @@ private:
     std::vector<std::optional<Filling>> cells_;
 };
 
-Vector to_vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+Vector to_vector(const std::array<double, 3>& a)
+{
+    return {a[0], a[1], a[2]};
+}
 
 void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, bool flat)
 {
     const Vector lower = to_vector(body.lower), upper = to_vector(body.upper), center = to_vector(body.center);
-    const auto fill_ball = [&](const Vector& middle, double radius)
-    {
+    const auto fill_ball = [&](const Vector& middle, double radius) {
         const Vector reach{radius, radius, radius};
         grid.fill(middle - reach, middle + reach, filling,
                   [&](const Vector& p) { return inside_sphere(middle, radius, p); });
     };
-    switch (body.shape)
-    {
+    switch (body.shape) {
     case BodyShape::box:
         grid.fill(lower, upper, filling, [&](const Vector& p) { return inside_box(body, p, flat); });
         break;
@@ -130,8 +129,7 @@ void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, bool
         break;
     case BodyShape::powder_bed:
         for (const auto& grain : read_powder_bed(body.file))
-            if (inside_box(body, to_vector(grain.center), flat))
-                fill_ball(to_vector(grain.center), grain.radius);
+            if (inside_box(body, to_vector(grain.center), flat)) fill_ball(to_vector(grain.center), grain.radius);
         break;
     }
 }
@@ -153,17 +151,14 @@ void place_walls(const Case& definition, const Lattice& lattice, std::vector<Pla
     std::array<int, 3> cell{};
     for (cell[2] = -layers[2]; cell[2] < lattice.cells[2] + layers[2]; ++cell[2])
         for (cell[1] = -layers[1]; cell[1] < lattice.cells[1] + layers[1]; ++cell[1])
-            for (cell[0] = -layers[0]; cell[0] < lattice.cells[0] + layers[0]; ++cell[0])
-            {
+            for (cell[0] = -layers[0]; cell[0] < lattice.cells[0] + layers[0]; ++cell[0]) {
                 int outside = 0;
                 bool behind_walls = true, free_slip = true;
                 Vector normal{};
                 auto parent = cell;
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
                     const bool below = cell[axis] < 0, above = cell[axis] >= lattice.cells[axis];
-                    if (!below && !above)
-                        continue;
+                    if (!below && !above) continue;
                     ++outside;
                     const auto& boundary = definition.domain.boundaries[2 * axis + (above ? 1 : 0)];
                     if (!boundary || boundary->kind != BoundaryKind::wall)
@@ -173,18 +168,16 @@ void place_walls(const Case& definition, const Lattice& lattice, std::vector<Pla
                     (axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z) = below ? 1.0 : -1.0;
                     parent[axis] = below ? -1 : lattice.cells[axis];
                 }
-                if (outside == 0 || !behind_walls)
-                    continue;
+                if (outside == 0 || !behind_walls) continue;
                 const double length = norm(normal);
                 Placement wall{lattice.point(cell), Kind::wall, 0, (1.0 / length) * normal, free_slip, std::nullopt};
                 // Edges and corners have no surface of their own that a contact line could run on.
-                if (outside == 1)
-                    wall.parent_cell = parent;
+                if (outside == 1) wall.parent_cell = parent;
                 placements.push_back(wall);
             }
 }
 
-}  // namespace
+} // namespace
 
 double Scene::particle_volume() const
 {
@@ -198,8 +191,7 @@ Scene place_particles(const Case& definition)
             boundary && (boundary->kind == BoundaryKind::symmetry || boundary->kind == BoundaryKind::periodic))
             throw CaseError("domain.boundaries." + std::string(side_names[side]) +
                             ": the SPH solver knows 'wall' and 'open'; choose one of them");
-    if (definition.bodies.empty())
-        throw CaseError("body: the case has no body; add one [[body]]");
+    if (definition.bodies.empty()) throw CaseError("body: the case has no body; add one [[body]]");
 
     Scene scene;
     scene.definition = definition;
@@ -208,11 +200,9 @@ Scene place_particles(const Case& definition)
     scene.two_phase = definition.surrounding && definition.surrounding->resolved;
 
     std::vector<std::string> names;
-    const auto material_index = [&](const std::string& name)
-    {
+    const auto material_index = [&](const std::string& name) {
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found != names.end())
-            return static_cast<std::uint8_t>(found - names.begin());
+        if (found != names.end()) return static_cast<std::uint8_t>(found - names.begin());
         names.push_back(name);
         scene.materials.push_back(definition.material(name));
         return static_cast<std::uint8_t>(names.size() - 1);
@@ -220,8 +210,7 @@ Scene place_particles(const Case& definition)
     for (const Body& body : definition.bodies)
         material_index(body.material);
     std::optional<Filling> background;
-    if (scene.two_phase)
-        background = Filling{Kind::fluid, material_index(definition.surrounding->material)};
+    if (scene.two_phase) background = Filling{Kind::fluid, material_index(definition.surrounding->material)};
     if (names.size() > 2 || (names.size() == 2 && !scene.two_phase))
         throw CaseError("body: the SPH solver models one liquid in vacuum or one in a resolved surrounding, but the "
                         "bodies are made of more; use one material");
@@ -230,8 +219,7 @@ Scene place_particles(const Case& definition)
     const bool flat = definition.dimensions == 2;
     FillingGrid grid(lattice, background);
     bool any_fluid = scene.two_phase;
-    for (const Body& body : definition.bodies)
-    {
+    for (const Body& body : definition.bodies) {
         any_fluid = any_fluid || !body.solid;
         fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)}, flat);
     }
@@ -247,23 +235,22 @@ Scene place_particles(const Case& definition)
         throw CaseError("resolution: no particle fits into any body at a spacing of " +
                         std::to_string(definition.spacing) + " m; choose a finer one");
     // A scene that is solid to its borders needs no walls: nothing molten reaches them.
-    if (any_fluid)
-        place_walls(definition, lattice, placements);
+    if (any_fluid) place_walls(definition, lattice, placements);
 
     scene.particles = std::make_unique<Particles>(static_cast<Index>(placements.size()));
     Particles& particles = *scene.particles;
     VectorField* wall_normal = any_fluid ? &particles.add_vector({"wall_normal", "1"}) : nullptr;
     ScalarField* free_slip = any_fluid ? &particles.add_scalar({"wall_free_slip", "1"}) : nullptr;
     std::map<std::array<int, 3>, Index> identity_of_cell;
-    const auto cell_of = [&](const Vector& p)
-    {
-        const auto index = [&](double x, double low) { return static_cast<int>(std::floor((x - low) / scene.spacing)); };
+    const auto cell_of = [&](const Vector& p) {
+        const auto index = [&](double x, double low) {
+            return static_cast<int>(std::floor((x - low) / scene.spacing));
+        };
         return std::array<int, 3>{index(p.x, lattice.lower.x), flat ? 0 : index(p.y, lattice.lower.y),
                                   index(p.z, lattice.lower.z)};
     };
     const double volume = scene.particle_volume();
-    for (Index i = 0; i < particles.count(); ++i)
-    {
+    for (Index i = 0; i < particles.count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Placement& placement = placements[k];
         particles.kind[k] = placement.kind;
@@ -273,12 +260,10 @@ Scene place_particles(const Case& definition)
         particles.density[i] = density;
         particles.volume[i] = volume;
         particles.mass[i] = density * volume;
-        if (placement.kind == Kind::wall)
-        {
+        if (placement.kind == Kind::wall) {
             wall_normal->set(i, placement.wall_normal);
             (*free_slip)[i] = placement.free_slip ? 1.0 : 0.0;
-            if (placement.parent_cell)
-                identity_of_cell[cell_of(placement.position)] = i;
+            if (placement.parent_cell) identity_of_cell[cell_of(placement.position)] = i;
         }
     }
     for (Index i = 0; i < particles.count(); ++i)
@@ -287,4 +272,4 @@ Scene place_particles(const Case& definition)
     return scene;
 }
 
-}  // namespace cupel
+} // namespace cupel

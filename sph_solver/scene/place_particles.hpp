@@ -17,15 +17,15 @@ struct Scene
     /// second, in a two-phase scene, the surrounding. Wall particles bear the index of the primary one.
     std::vector<Material> materials;
     std::unique_ptr<Particles> particles;
-    double spacing = 0;      ///< m
+    double spacing = 0; ///< m
     int dimensions = 3;
-    bool two_phase = false;  ///< the surrounding has particles of its own
+    bool two_phase = false; ///< the surrounding has particles of its own
 
-    double particle_volume() const;  ///< spacing³ (spacing² · 1 m in two dimensions), m³
+    double particle_volume() const; ///< spacing³ (spacing² · 1 m in two dimensions), m³
 };
 
 /// Fills the domain's bodies with particles on a cubic lattice, the surrounding as well where it is resolved, and puts
 /// layers of wall particles behind every wall that a fluid can touch. Throws CaseError where the case cannot be filled.
 Scene place_particles(const Case& definition);
 
-}  // namespace cupel
+} // namespace cupel

@@ -16,11 +16,17 @@ TINY = {
     "marangoni_layer": ("resolution.coarse=100 um", "time.end=20 ms", "time.output_interval=5 ms"),
     "slm_track_150w": ("resolution.coarse=40 um", "time.end=0.5 ms", "time.output_interval=0.1 ms"),
 }
+# Long enough to be interrupted in the middle.
+INTERRUPTED = {
+    ("sph", "marangoni_layer"): TINY["marangoni_layer"],
+    ("sph", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=2 ms", "time.output_interval=0.1 ms"),
+    ("openfoam", "slm_track_150w"): TINY["slm_track_150w"],
+}
 
 
-def tiny_arguments(case: str, results: Path, *more: str) -> list[str]:
-    """Arguments of `cupel` that run a case's tiny variant."""
-    overrides = [word for text in TINY[case] for word in ("--set", text)]
+def tiny_arguments(case: str, results: Path, *more: str, settings: tuple[str, ...] | None = None) -> list[str]:
+    """Arguments of `cupel` that run a case's tiny variant, or one with other settings."""
+    overrides = [word for text in settings or TINY[case] for word in ("--set", text)]
     return ["run", case, *overrides, "--variant", "tiny", "--quiet", "--no-report", "--results", str(results), *more]
 
 

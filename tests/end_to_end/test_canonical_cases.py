@@ -16,7 +16,7 @@ from cupel.layout import ResultPlace
 from cupel.measures.elements import read_series
 from cupel.results import read_result
 from tests.conftest import PYTHON, ROOT
-from tests.end_to_end.conftest import TINY, tiny_arguments
+from tests.end_to_end.conftest import INTERRUPTED, TINY, tiny_arguments
 
 pytestmark = pytest.mark.end_to_end
 BOTH = pytest.mark.parametrize("solver", ["sph", "openfoam"])
@@ -59,7 +59,8 @@ def test_its_snapshots_are_at_the_agreed_times_with_finite_fields(tiny_runs, cas
     if "heat" in settings["physics"]:
         last = series.load(len(series) - 1)
         assert last.temperature.max() > 1000 and last.temperature.min() > 290
-        assert (last.peak_temperature >= last.temperature - 1e-3 * last.temperature).all()
+        metal = last.fraction > 0.5
+        assert (last.peak_temperature >= 0.999 * last.temperature)[metal].all()
 
 
 @EACH
@@ -68,7 +69,7 @@ def test_its_history_goes_to_the_end(tiny_runs, case, solver):
     folder = tiny_runs.folder(case, solver)
     with open(folder / "series.csv", newline="") as file:
         rows = list(csv.reader(file))
-    assert rows[0][0] == "time_s" and len(rows) > 3 and len({len(row) for row in rows}) == 1
+    assert rows[0][0] == "time_s" and len(rows) >= 3 and len({len(row) for row in rows}) == 1
     times = [float(row[0]) for row in rows[1:]]
     assert times == sorted(times) and times[-1] == pytest.approx(json.loads((folder / "case.json").read_text())["time"]["end"], rel=1e-3)
 
@@ -90,10 +91,10 @@ def test_both_solvers_start_from_the_same_amount_of_metal(tiny_runs):
     assert contents[0] == pytest.approx(contents[1], rel=0.03)  # particles of 40 μm against grains of 15 to 45 μm
 
 
-def run_again(case: str, results, *more: str) -> subprocess.CompletedProcess:
+def run_again(case: str, results, *more: str, settings=None) -> subprocess.CompletedProcess:
     environment = os.environ | {"PYTHONPATH": f"{ROOT / 'scripts'}:{ROOT}", "PYTHONDONTWRITEBYTECODE": "1"}
-    return subprocess.run([PYTHON, "-m", "cupel", *tiny_arguments(case, results, *more)], env=environment, capture_output=True,
-                          text=True, timeout=600)
+    arguments = tiny_arguments(case, results, *more, settings=settings)
+    return subprocess.run([PYTHON, "-m", "cupel", *arguments], env=environment, capture_output=True, text=True, timeout=600)
 
 
 def last_fields(results, case: str, solver: str):
@@ -109,28 +110,32 @@ def test_running_twice_gives_the_same_numbers(tiny_runs, tmp_path, solver):
     assert np.array_equal(first.position, second.position) and np.array_equal(first.velocity, second.velocity)
 
 
-@BOTH
-def test_interrupted_and_resumed_is_the_same_as_unbroken(tiny_runs, tmp_path, solver):
+@pytest.mark.parametrize("solver, case", list(INTERRUPTED))
+def test_interrupted_and_resumed_is_the_same_as_unbroken(tmp_path, solver, case):
+    settings, more = INTERRUPTED[solver, case], ("--solver", solver, "--threads", "1", "--jobs", "1")
+    assert run_again(case, tmp_path / "whole", *more, settings=settings).returncode == 0
+
     environment = os.environ | {"PYTHONPATH": f"{ROOT / 'scripts'}:{ROOT}", "PYTHONDONTWRITEBYTECODE": "1"}
-    arguments = tiny_arguments("slm_track_150w", tmp_path, "--solver", solver, "--threads", "1")
+    arguments = tiny_arguments(case, tmp_path / "broken", *more, settings=settings)
     process = subprocess.Popen([PYTHON, "-m", "cupel", *arguments], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                text=True)
-    series = tmp_path / "slm_track_150w" / solver / "tiny" / "fields" / "fields.pvd"
-    deadline = time.monotonic() + 120
+    folder = tmp_path / "broken" / case / solver / "tiny"
+    series, deadline = folder / "fields" / "fields.pvd", time.monotonic() + 120
     while not (series.exists() and series.read_text().count("<DataSet") >= 2):
         assert process.poll() is None and time.monotonic() < deadline, "no second snapshot"
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
     _, messages = process.communicate(timeout=130)
     assert process.returncode == 130 and "Traceback" not in messages, messages
-    assert not (series.parents[1] / "result.json").exists()
+    assert not (folder / "result.json").exists()
 
-    done = run_again("slm_track_150w", tmp_path, "--solver", solver, "--threads", "1", "--resume")
+    done = run_again(case, tmp_path / "broken", *more, "--resume", settings=settings)
     assert done.returncode == 0 and "resumed" in done.stderr, done.stderr
-    whole, broken = (last_fields(root, "slm_track_150w", solver) for root in (tiny_runs.results, tmp_path))
+    whole, broken = (last_fields(tmp_path / name, case, solver) for name in ("whole", "broken"))
     assert whole.count == broken.count
     if solver == "sph":  # bit for bit with the same number of threads
-        assert np.array_equal(whole.temperature, broken.temperature) and np.array_equal(whole.position, broken.position)
+        assert np.array_equal(whole.position, broken.position) and np.array_equal(whole.velocity, broken.velocity)
+        assert (whole.temperature is None or np.array_equal(whole.temperature, broken.temperature))
     else:  # to the tolerance of its linear solvers
         assert np.abs(whole.temperature - broken.temperature).max() < 1.0
         assert np.sqrt(np.mean((whole.velocity - broken.velocity) ** 2)) < 1e-3

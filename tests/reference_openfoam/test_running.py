@@ -17,8 +17,9 @@ from tests.reference_openfoam import small_cases
 
 def start(data, folder):
     (folder/"resolved.json").write_text(json.dumps(data))
-    return subprocess.Popen([sys.executable, "-m", "reference_openfoam", "run", str(folder/"resolved.json"), "--output", str(folder/"result")],
-                            env=os.environ | {"PYTHONPATH": str(small_cases.ROOT)}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command = [sys.executable, "-m", "reference_openfoam", "run", str(folder/"resolved.json"), "--output", str(folder/"result")]
+    return subprocess.Popen(command, env=os.environ | {"PYTHONPATH": str(small_cases.ROOT)},
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 @pytest.fixture(scope="module")
@@ -76,10 +77,24 @@ def test_an_interrupted_run_leaves_a_checkpoint_and_resumes_to_the_same_result(u
     assert resumed["ledgers"]["energy"]["closure"] < 1e-6
 
 
+def test_a_killed_run_leaves_no_result_and_can_be_resumed(tmp_path):
+    data = small_cases.grain_on_plate()
+    process = start(data, tmp_path)
+    limit = time.monotonic() + 60
+    while not (tmp_path/"result"/"fields"/"fields_000000.vtu").exists() and time.monotonic() < limit:
+        time.sleep(0.02)
+    process.kill()
+    process.communicate(timeout=60)
+    assert not (tmp_path/"result"/"run.json").exists()
+    time.sleep(2)                                    # the solver, asked by the kernel, ends its step and leaves a checkpoint
+    assert small_cases.completed(data, tmp_path, "--resume")["ledgers"]["energy"]["closure"] < 1e-6
+
+
 def test_a_truncated_checkpoint_is_refused_in_one_line(unbroken, tmp_path):
     data, folder, _, _ = unbroken
     subprocess.run(["cp", "-r", str(folder/"result"), str(tmp_path/"result")], check=True)
-    newest = max((path for path in (tmp_path/"result"/"checkpoints").iterdir() if path.name[0].isdigit()), key=lambda path: float(path.name))
+    written = [path for path in (tmp_path/"result"/"checkpoints").iterdir() if path.name[0].isdigit()]
+    newest = max(written, key=lambda path: float(path.name))
     (newest/"T").write_bytes((newest/"T").read_bytes()[:-100])
     result = small_cases.solve(data, tmp_path, "--resume")
     assert result.returncode == 2
@@ -113,6 +128,13 @@ def test_a_folder_that_cannot_be_written_ends_in_one_line(tmp_path):
     (tmp_path/"result").write_text("a file where the folder should be")
     result = small_cases.solve(small_cases.grain_on_plate(), tmp_path)
     assert result.returncode == 2 and len(result.stderr.splitlines()) == 1
+
+
+def test_a_folder_with_blanks_in_its_name_is_as_good_as_any(tmp_path):
+    folder = tmp_path/"a folder, mine"
+    folder.mkdir()
+    small_cases.completed(small_cases.grain_on_plate(time={"end": 1e-5, "output_interval": 1e-5}), folder)
+    assert (folder/"result"/"fields"/"fields_000001.vtu").is_file()
 
 
 def test_a_beam_that_the_mesh_cannot_bear_is_stopped_with_a_diagnosis(tmp_path):

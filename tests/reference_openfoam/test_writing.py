@@ -39,7 +39,8 @@ def test_a_sphere_of_sixteen_cells_across_has_its_volume_to_one_in_two_thousand(
 
 def test_a_box_off_the_grid_lines_has_its_exact_volume(tmp_path):
     data = drop()
-    data["bodies"] = [{"shape": "box", "material": "oil", "state": "liquid", "lower": [-1e-3, -7.7e-4, 0.0], "upper": [3.3e-4, 1e-3, 4.4e-4]}]
+    data["bodies"] = [{"shape": "box", "material": "oil", "state": "liquid",
+                       "lower": [-1e-3, -7.7e-4, 0.0], "upper": [3.3e-4, 1e-3, 4.4e-4]}]
     case = read(data, tmp_path)
     grid = grids.make_grid(case, 1e-3)
     assert (volume_fractions(case, grid)*grid.cell_volumes()).sum() == pytest.approx(1.33e-3*1.77e-3*4.4e-4, rel=1e-12)
@@ -107,7 +108,8 @@ def test_only_the_fields_that_the_physics_need_are_written(tmp_path):
 def test_a_frozen_temperature_is_linear_up_to_the_walls(tmp_path):
     data = small_cases.case(
         spacing=1e-4, dimensions=2, physics=["flow", "gravity", "marangoni"], gravity=[0.0, 0.0, -9.81],
-        materials={"liquid": {"density": 1000.0, "viscosity": 0.01, "surface_tension_slope": -1e-4}, "gas": {"density": 1.0, "viscosity": 1e-5}},
+        materials={"liquid": {"density": 1000.0, "viscosity": 0.01, "surface_tension_slope": -1e-4},
+                   "gas": {"density": 1.0, "viscosity": 1e-5}},
         surrounding={"material": "gas", "resolved": False, "temperature": 300.0, "pressure": 101325.0, "convection_coefficient": 0.0},
         domain={"lower": [0.0, 0.0, 0.0], "upper": [1e-3, 0.0, 5e-4],
                 "boundaries": {side: small_cases.WALL for side in ("x_min", "x_max", "z_min", "z_max")}},

@@ -1,8 +1,8 @@
 #include "output/run_record.hpp"
 
 #include <cmath>
+#include <ctime>
 #include <limits>
-#include <thread>
 
 #include "output/progress.hpp"
 #include "output/run_folder.hpp"
@@ -77,16 +77,13 @@ TEST_F(RunRecordFile, TextIsEscapedAndNoNumberIsNaN)
 TEST_F(RunRecordFile, CostOfThePartsOfARunAddsUp)
 {
     const CostMeter meter(1000.0, 2000.0);
-    double sum = 0.0;
-    const auto start = std::chrono::steady_clock::now();
-    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(30))
-        sum += std::sqrt(sum + 1.0);
-    EXPECT_GT(sum, 0.0);
+    const std::clock_t start = std::clock();
+    while (std::clock() - start < CLOCKS_PER_SEC / 50)
+        ; // 20 ms of processor time
     RunCost cost;
     cost.measure(meter);
-    EXPECT_GE(cost.wall_seconds, 1000.03);
-    EXPECT_LT(cost.wall_seconds, 1010.0);
-    EXPECT_GT(cost.cpu_seconds, 2000.005); // most of the 30 ms, even on a busy machine
+    EXPECT_GE(cost.wall_seconds, 1000.019);
+    EXPECT_GE(cost.cpu_seconds, 2000.019);
     EXPECT_LT(cost.cpu_seconds, 2010.0);
     EXPECT_GT(cost.peak_bytes, 1e6);
 }
@@ -165,11 +162,10 @@ TEST_F(ProgressLines, AreJsonAndNotMoreThanAsked)
     const auto file = folder / "stdout";
     std::FILE* stream = std::fopen(file.c_str(), "w");
     ASSERT_NE(stream, nullptr);
-    Progress progress(6.7e-3, 100.0, stream, std::chrono::milliseconds(20));
-    EXPECT_FALSE(progress.update(0.0, 1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    Progress rare(6.7e-3, 100.0, stream, std::chrono::hours(1));
+    EXPECT_FALSE(rare.update(0.0, 1));
+    Progress progress(6.7e-3, 100.0, stream, std::chrono::milliseconds(0));
     EXPECT_TRUE(progress.update(1.2e-3, 1234));
-    EXPECT_FALSE(progress.update(1.3e-3, 1235));
     progress.write(6.7e-3, 5000);
     std::fclose(stream);
     const std::string text = read_whole(file);
@@ -178,7 +174,7 @@ TEST_F(ProgressLines, AreJsonAndNotMoreThanAsked)
     EXPECT_EQ(line["time"], 1.2e-3);
     EXPECT_EQ(line["end"], 6.7e-3);
     EXPECT_EQ(line["step"], 1234);
-    EXPECT_GE(line["wall_s"], 100.025);
+    EXPECT_GE(line["wall_s"], 100.0);
 }
 
 TEST(StopSignals, SetTheFlagAndEndTheProgramTheThirdTime)

@@ -27,8 +27,7 @@ double slab_error(int n, double jitter)
     Particles& particles = *scene.particles;
     const double specific_heat = 780, diffusivity = 25.0 / (6900 * specific_heat);
     ScalarField& temperature = particles.scalar("temperature");
-    for (Index i = 0; i < particles.count(); ++i)
-    {
+    for (Index i = 0; i < particles.count(); ++i) {
         temperature[i] = slab_mode(particles.position[i].z, 0.0, diffusivity);
         particles.scalar("enthalpy")[i] = specific_heat * temperature[i];
     }
@@ -44,13 +43,17 @@ double slab_error(int n, double jitter)
 TEST(Conduction, SlabModeDecaysAsItMustAndConverges)
 {
     const double coarse = slab_error(10, 0.0), middle = slab_error(20, 0.0), fine = slab_error(40, 0.0);
-    RecordProperty("error_10_20_40", std::to_string(coarse) + " " + std::to_string(middle) + " " + std::to_string(fine));
+    RecordProperty("error_10_20_40",
+                   std::to_string(coarse) + " " + std::to_string(middle) + " " + std::to_string(fine));
     EXPECT_LT(middle, 0.005);
     EXPECT_LT(fine, 0.6 * middle);
     EXPECT_LT(middle, 0.6 * coarse);
 }
 
-TEST(Conduction, SlabModeSurvivesDisorder) { EXPECT_LT(slab_error(20, 0.2), 0.01); }
+TEST(Conduction, SlabModeSurvivesDisorder)
+{
+    EXPECT_LT(slab_error(20, 0.2), 0.01);
+}
 
 TEST(Conduction, IsotropicMediumAtRestStaysAtItsTemperature)
 {
@@ -84,7 +87,7 @@ TEST(Conduction, HeatIsConservedToRoundOff)
 {
     Scene scene = lattice_scene(heat_case(steel(), 3, 1e-5, {"melting"}), {}, {8e-5, 8e-5, 8e-5}, 0.2);
     scene.definition.initial.temperature = 300;
-    scene.definition.initial.temperature_gradient = {1e7, 1e7, 2e7};    // 300 to 3500 K: solid, mushy, liquid
+    scene.definition.initial.temperature_gradient = {1e7, 1e7, 2e7}; // 300 to 3500 K: solid, mushy, liquid
     ThermalStep step(scene);
     const NeighbourList list = neighbours(scene);
     run(step, list, 100 * step.stable_time_step());
@@ -94,8 +97,7 @@ TEST(Conduction, HeatIsConservedToRoundOff)
 /// One-dimensional start-up between an isothermal wall and an adiabatic end: first mode sin(πz/2L) of the deviation.
 TEST(Conduction, WallOfPrescribedTemperatureHoldsIt)
 {
-    for (const double jitter : {0.0, 0.2})
-    {
+    for (const double jitter : {0.0, 0.2}) {
         const double dx = length / 20;
         Case definition = heat_case(plain_metal(), 2, dx);
         definition.domain.upper = {8 * dx, 0, length};
@@ -105,8 +107,7 @@ TEST(Conduction, WallOfPrescribedTemperatureHoldsIt)
         Particles& particles = *scene.particles;
         const double diffusivity = 25.0 / (6900 * 780.0), k = 0.5 * std::numbers::pi / length;
         ScalarField& temperature = particles.scalar("temperature");
-        for (Index i = 0; i < particles.count(); ++i)
-        {
+        for (Index i = 0; i < particles.count(); ++i) {
             temperature[i] = 500 + 100 * std::sin(k * particles.position[i].z);
             particles.scalar("enthalpy")[i] = 780 * temperature[i];
         }
@@ -115,8 +116,8 @@ TEST(Conduction, WallOfPrescribedTemperatureHoldsIt)
         run(step, list, end);
         double worst = 0.0;
         for (Index i = 0; i < particles.count(); ++i)
-            worst = std::max(worst, std::abs(temperature[i] - 500 - 100 * std::exp(-1.0) *
-                                                                        std::sin(k * particles.position[i].z)));
+            worst = std::max(
+                worst, std::abs(temperature[i] - 500 - 100 * std::exp(-1.0) * std::sin(k * particles.position[i].z)));
         RecordProperty(jitter > 0 ? "worst_K_jitter" : "worst_K", std::to_string(worst));
         EXPECT_LT(worst, jitter > 0 ? 1.0 : 0.3);
         EXPECT_LT(step.ledger().in, 1e-12 * step.ledger().out + 1e-30);
@@ -139,5 +140,5 @@ TEST(Conduction, StepJustBelowTheLimitIsStableAndTheLimitIsSafe)
     EXPECT_GE(after.lowest, before.lowest);
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

@@ -14,8 +14,7 @@ TEST(Enthalpy, TemperatureComesBackFromItsEnthalpyToRoundOff)
 {
     for (const double latent_heat : {0.0, 247000.0, 2.47e6})
         for (const double liquidus : {1673.001, 1773.0, 2500.0})
-            for (const double specific_heat : {300.0, 700.0, 1500.0})
-            {
+            for (const double specific_heat : {300.0, 700.0, 1500.0}) {
                 Material material = steel();
                 material.latent_heat = latent_heat;
                 material.liquidus = liquidus;
@@ -23,8 +22,7 @@ TEST(Enthalpy, TemperatureComesBackFromItsEnthalpyToRoundOff)
                 const ThermalMaterial thermal(material, true);
                 for (double t = 1.0; t < 6000.0; t += 7.3)
                     EXPECT_NEAR(thermal.temperature(thermal.enthalpy(t)), t, 1e-12 * t);
-                for (double share = 0.0; share <= 1.0; share += 1.0 / 64)
-                {
+                for (double share = 0.0; share <= 1.0; share += 1.0 / 64) {
                     const double t = 1673.0 + share * (liquidus - 1673.0);
                     EXPECT_NEAR(thermal.temperature(thermal.enthalpy(t)), t, 1e-9);
                 }
@@ -73,8 +71,7 @@ TEST(Enthalpy, PureMetalMeltsAtOneTemperature)
     const ThermalMaterial thermal(material, true);
     const double solid = 700.0 * 1673.0;
     EXPECT_DOUBLE_EQ(thermal.enthalpy(1673.0), solid);
-    for (double f = 0.125; f < 1.0; f += 0.125)
-    {
+    for (double f = 0.125; f < 1.0; f += 0.125) {
         EXPECT_NEAR(thermal.liquid_fraction(solid + f * 247000.0), f, 1e-14);
         EXPECT_EQ(thermal.temperature(solid + f * 247000.0), 1673.0);
     }
@@ -87,8 +84,7 @@ TEST(Enthalpy, PureMetalMeltsAtOneTemperature)
 
 TEST(Enthalpy, WithoutMeltingThereIsOneBranch)
 {
-    for (const ThermalMaterial& thermal : {ThermalMaterial(plain_metal(), true), ThermalMaterial(steel(), false)})
-    {
+    for (const ThermalMaterial& thermal : {ThermalMaterial(plain_metal(), true), ThermalMaterial(steel(), false)}) {
         EXPECT_FALSE(thermal.melts);
         EXPECT_DOUBLE_EQ(thermal.enthalpy(2000.0), 780.0 * 2000.0);
         EXPECT_DOUBLE_EQ(thermal.temperature(780.0 * 1700.0), 1700.0);
@@ -100,13 +96,11 @@ TEST(Enthalpy, WhatHeatNeedsIsNamedWhereItIsMissing)
 {
     Material material = plain_metal();
     material.conductivity.reset();
-    try
-    {
+    try {
         ThermalMaterial thermal(material, false);
         FAIL() << "a material without conductivity was taken";
     }
-    catch (const CaseError& error)
-    {
+    catch (const CaseError& error) {
         EXPECT_NE(std::string(error.what()).find("material.metal.conductivity"), std::string::npos);
     }
     Material turned = steel();
@@ -114,5 +108,5 @@ TEST(Enthalpy, WhatHeatNeedsIsNamedWhereItIsMissing)
     EXPECT_THROW(ThermalMaterial(turned, true), CaseError);
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

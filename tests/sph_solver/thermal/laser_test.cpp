@@ -30,13 +30,11 @@ struct Lit
 
     double heating(Index i) const { return scene.particles->scalar("heating_power")[i]; }
     /// Power of the particles for which choose(position) holds, W.
-    template <class Choose>
-    double total(const Choose& choose) const
+    template <class Choose> double total(const Choose& choose) const
     {
         double sum = 0.0;
         for (Index i = 0; i < scene.particles->count(); ++i)
-            if (choose(scene.particles->position[i]))
-                sum += heating(i);
+            if (choose(scene.particles->position[i])) sum += heating(i);
         return sum;
     }
 };
@@ -58,8 +56,7 @@ Scene plate(double dx, double jitter = 0.0, double half = 2.4e-4)
 
 TEST(LaserBeam, FlatSurfaceAbsorbsAllOfTheBeamTimesItsAbsorptivity)
 {
-    for (const double dx : {4e-5, 2e-5, 1e-5})
-    {
+    for (const double dx : {4e-5, 2e-5, 1e-5}) {
         const Lit lit = shine(plate(dx), beam_at(3.3e-6, -7.1e-6));
         EXPECT_NEAR(lit.power.emitted, 150, 1e-9);
         EXPECT_NEAR(lit.power.hit, 150, 150e-3) << dx;
@@ -72,8 +69,7 @@ TEST(LaserBeam, FlatSurfaceAbsorbsAllOfTheBeamTimesItsAbsorptivity)
 TEST(LaserBeam, RoughSurfaceAbsorbsTheSameAndHasNoHoles)
 {
     const double dx = 2e-5;
-    for (const double jitter : {0.2, 0.5})
-    {
+    for (const double jitter : {0.2, 0.5}) {
         const Lit lit = shine(plate(dx, jitter), beam_at(0, 0));
         EXPECT_NEAR(lit.power.hit, 150, 150e-3);
         EXPECT_NEAR(lit.power.absorbed, 0.35 * 150, 0.35 * 150e-3);
@@ -88,22 +84,19 @@ TEST(LaserBeam, EachParticleOfALayerTakesTheFluxThroughItsCell)
     const Lit lit = shine(plate(dx), beam_at(0, 0));
     const double peak = 0.35 * 2 * 150 / (std::numbers::pi * spot_radius * spot_radius);
     double worst = 0.0;
-    for (Index i = 0; i < lit.scene.particles->count(); ++i)
-    {
+    for (Index i = 0; i < lit.scene.particles->count(); ++i) {
         const Vector p = lit.scene.particles->position[i];
         const double flux = peak * std::exp(-2 * (p.x * p.x + p.y * p.y) / (spot_radius * spot_radius));
-        if (p.z > -dx)
-            worst = std::max(worst, std::abs(lit.heating(i) / (dx * dx) - flux) / peak);
+        if (p.z > -dx) worst = std::max(worst, std::abs(lit.heating(i) / (dx * dx) - flux) / peak);
     }
-    EXPECT_LT(worst, 0.01);     // cell average against its middle: dx²/24 · ∇²q
+    EXPECT_LT(worst, 0.01); // cell average against its middle: dx²/24 · ∇²q
 }
 
 TEST(LaserBeam, GrainAboveAPlateTakesItsLightAndShadesThePlate)
 {
     const double dx = 1e-5, radius = 5e-5, height = 1e-4;
-    Scene scene = lattice_scene(heat_case(plain_metal(), 3, dx), {-2.4e-4, -2.4e-4, -2 * dx}, {2.4e-4, 2.4e-4, 2e-4}, 0.0,
-                                [&](const Vector& p)
-                                {
+    Scene scene = lattice_scene(heat_case(plain_metal(), 3, dx), {-2.4e-4, -2.4e-4, -2 * dx}, {2.4e-4, 2.4e-4, 2e-4},
+                                0.0, [&](const Vector& p) {
                                     const double above = p.z - height;
                                     return p.z < 0 || p.x * p.x + p.y * p.y + above * above < radius * radius;
                                 });
@@ -115,8 +108,8 @@ TEST(LaserBeam, GrainAboveAPlateTakesItsLightAndShadesThePlate)
     EXPECT_GT(grain / lit.power.absorbed, expected);
     EXPECT_LT(grain / lit.power.absorbed, expected * 1.10);
     EXPECT_NEAR(lit.power.hit, 150, 150e-3);
-    const double shaded = lit.total([&](const Vector& p)
-                                    { return p.z < 0 && p.x * p.x + p.y * p.y < 0.8 * 0.8 * reach; });
+    const double shaded =
+        lit.total([&](const Vector& p) { return p.z < 0 && p.x * p.x + p.y * p.y < 0.8 * 0.8 * reach; });
     EXPECT_EQ(shaded, 0.0);
     const double lower_half = lit.total([&](const Vector& p) { return p.z > 0 && p.z < height - dx; });
     EXPECT_LT(lower_half, 0.05 * grain);
@@ -128,7 +121,7 @@ TEST(LaserBeam, RaysThatMeetNothingAreLost)
     Scene half_plate = lattice_scene(heat_case(plain_metal(), 3, dx), {0, -2.4e-4, -2 * dx}, {2.4e-4, 2.4e-4, 0});
     const Lit lit = shine(std::move(half_plate), beam_at(0, 0));
     EXPECT_GT(lit.power.hit, 75.0);
-    EXPECT_LT(lit.power.hit, 75.0 * 1.07);    // the edge is widened by a quarter of a spacing, dx/4 √(2/π) 2/r₀ of 1
+    EXPECT_LT(lit.power.hit, 75.0 * 1.07); // the edge is widened by a quarter of a spacing, dx/4 √(2/π) 2/r₀ of 1
     EXPECT_NEAR(lit.power.absorbed, 0.35 * lit.power.hit, 1e-10);
     const Lit missed = shine(plate(dx, 0, 1e-4), beam_at(1e-3, 0));
     EXPECT_EQ(missed.power.hit, 0.0);
@@ -141,7 +134,7 @@ TEST(LaserBeam, GoesOnAndOffWithinAStepByItsShare)
     Laser laser = beam_at(-1e-4, 0);
     laser.to = {1e-4, 0};
     laser.speed = 1;
-    laser.start = 1e-4;     // off at 3e-4 s
+    laser.start = 1e-4; // off at 3e-4 s
     const auto emitted = [&](double time) { return shine(plate(4e-5), laser, time, 1e-4).power.emitted; };
     EXPECT_EQ(emitted(0), 0.0);
     EXPECT_NEAR(emitted(5e-5), 75, 1e-6);
@@ -155,10 +148,9 @@ TEST(LaserBeam, FollowsItsPath)
     Laser laser = beam_at(-1e-4, 2e-5);
     laser.to = {1e-4, 2e-5};
     laser.speed = 1;
-    const Lit lit = shine(plate(1e-5), laser, 1.5e-4, 2e-5);    // mean time 1.6e-4: x = 6e-5
+    const Lit lit = shine(plate(1e-5), laser, 1.5e-4, 2e-5); // mean time 1.6e-4: x = 6e-5
     double x = 0.0, y = 0.0;
-    for (Index i = 0; i < lit.scene.particles->count(); ++i)
-    {
+    for (Index i = 0; i < lit.scene.particles->count(); ++i) {
         x += lit.heating(i) * lit.scene.particles->position[i].x / lit.power.absorbed;
         y += lit.heating(i) * lit.scene.particles->position[i].y / lit.power.absorbed;
     }
@@ -182,13 +174,13 @@ TEST(LaserBeam, DoesNotDependOnTheOrderOfParticles)
 TEST(LaserBeam, InTwoDimensionsIsItsMiddleSection)
 {
     const double dx = 1e-5;
-    const Lit lit = shine(lattice_scene(heat_case(plain_metal(), 2, dx), {-2.4e-4, 0, -4 * dx}, {2.4e-4, 0, 0}),
-                          beam_at(0, 0));
-    const double section = 2 * 150 / (std::numbers::pi * spot_radius * spot_radius) *
-                           std::sqrt(0.5 * std::numbers::pi) * spot_radius;
+    const Lit lit =
+        shine(lattice_scene(heat_case(plain_metal(), 2, dx), {-2.4e-4, 0, -4 * dx}, {2.4e-4, 0, 0}), beam_at(0, 0));
+    const double section =
+        2 * 150 / (std::numbers::pi * spot_radius * spot_radius) * std::sqrt(0.5 * std::numbers::pi) * spot_radius;
     EXPECT_NEAR(lit.power.emitted / section, 1, 1e-12);
     EXPECT_NEAR(lit.power.hit / section, 1, 1e-3);
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

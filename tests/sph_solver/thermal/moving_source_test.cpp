@@ -23,8 +23,7 @@ double exact_temperature(double x, double y, double z, double duration)
     constexpr int intervals = 800;
     const double end = std::sqrt(duration), a_squared = 0.25 * spot_radius * spot_radius;
     double sum = 0.0;
-    for (int n = 0; n <= intervals; ++n)
-    {
+    for (int n = 0; n <= intervals; ++n) {
         const double w = end * n / intervals, s = w * w;
         const double width = a_squared + 2 * diffusivity * s;
         const double depth = s > 0 ? std::exp(-z * z / (4 * diffusivity * s)) : (z == 0 ? 1.0 : 0.0);
@@ -38,22 +37,19 @@ double exact_temperature(double x, double y, double z, double duration)
 
 struct Pool
 {
-    double half_width = 0;      ///< of the isotherm on the plane `surface`, m
-    double depth = 0;           ///< of the isotherm, m
+    double half_width = 0; ///< of the isotherm on the plane `surface`, m
+    double depth = 0;      ///< of the isotherm, m
 };
 
 /// Greatest distance from the axis and greatest depth of the isotherm, by bisection of an analytic field; the width on
 /// the plane z = `surface`.
 Pool exact_pool(double surface, double duration)
 {
-    const auto reach = [&](const auto& temperature_at)
-    {
+    const auto reach = [&](const auto& temperature_at) {
         double greatest = 0.0;
-        for (double x = -1.5e-4; x < 1e-4; x += 4e-6)
-        {
+        for (double x = -1.5e-4; x < 1e-4; x += 4e-6) {
             double low = 0.0, high = 4e-4;
-            if (temperature_at(x, low) < isotherm)
-                continue;
+            if (temperature_at(x, low) < isotherm) continue;
             for (int n = 0; n < 25; ++n)
                 (temperature_at(x, 0.5 * (low + high)) > isotherm ? low : high) = 0.5 * (low + high);
             greatest = std::max(greatest, low);
@@ -67,7 +63,7 @@ Pool exact_pool(double surface, double duration)
 struct Outcome
 {
     Pool pool;
-    double laser_error, closure, rms;   ///< rms of T where T > 600 K below the outermost layer, over the greatest rise
+    double laser_error, closure, rms; ///< rms of T where T > 600 K below the outermost layer, over the greatest rise
 };
 
 Outcome moving_source(double dx, double duration)
@@ -100,23 +96,19 @@ Outcome moving_source(double dx, double duration)
     double sum = 0.0, greatest = 0.0;
     int count = 0;
     std::map<std::array<int, 3>, double> field;
-    for (Index i = 0; i < particles.count(); ++i)
-    {
+    for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
         field[{int(std::floor(p.x / dx)), int(std::floor(p.y / dx)), int(std::floor(p.z / dx))}] = temperature[i];
         const double exact = exact_temperature(p.x - at_end, p.y, p.z, duration);
         greatest = std::max(greatest, exact - initial);
-        if (exact > 600 && p.z < -dx)
-        {
+        if (exact > 600 && p.z < -dx) {
             sum += std::pow(temperature[i] - exact, 2);
             ++count;
         }
     }
     result.rms = std::sqrt(sum / count) / greatest;
-    for (const auto& [cell, hot] : field)
-    {
-        const auto crossing = [&](std::array<int, 3> next)
-        {
+    for (const auto& [cell, hot] : field) {
+        const auto crossing = [&](std::array<int, 3> next) {
             const auto found = field.find(next);
             return found != field.end() && hot > isotherm && found->second <= isotherm
                        ? (hot - isotherm) / (hot - found->second)
@@ -153,5 +145,5 @@ TEST(MovingSource, PoolIsThatOfTheExactSolution)
     EXPECT_LT(result.closure, 1e-10);
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

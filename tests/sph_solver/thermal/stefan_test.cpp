@@ -9,14 +9,13 @@ namespace cupel::thermal_tests
 namespace
 {
 
-constexpr double depth = 1e-4;      // of the front at the end, m
+constexpr double depth = 1e-4; // of the front at the end, m
 
 /// β of the one-phase problem: β e^{β²} erf β = St/√π.
 double stefan_beta(double stefan)
 {
     double low = 1e-3, high = 3.0;
-    for (int n = 0; n < 100; ++n)
-    {
+    for (int n = 0; n < 100; ++n) {
         const double beta = 0.5 * (low + high);
         (beta * std::exp(beta * beta) * std::erf(beta) < stefan / std::sqrt(std::numbers::pi) ? low : high) = beta;
     }
@@ -57,8 +56,7 @@ TEST(Stefan, ConstantsOfTheExactSolutionAreThoseOfTheTable)
 
 TEST(Stefan, FrontIsWithinThreePerMilleAtTwentyParticles)
 {
-    for (const double excess : {100.0, 300.0, 1000.0})
-    {
+    for (const double excess : {100.0, 300.0, 1000.0}) {
         const double error = front_error(20, excess, 0.0);
         RecordProperty("error_at_" + std::to_string(int(excess)) + "_K", std::to_string(error));
         EXPECT_LT(std::abs(error), 0.003) << excess;
@@ -80,5 +78,5 @@ TEST(Stefan, FrontConverges)
     EXPECT_LT(std::abs(fine), 0.5 * std::abs(coarse));
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

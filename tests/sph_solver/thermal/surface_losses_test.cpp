@@ -59,17 +59,17 @@ TEST(ImplicitLosses, SatisfyTheirEquationHoweverStiff)
     const ThermalMaterial material(steel(), true);
     const SurfaceLosses losses{Evaporation{steel_vapour}, Radiation{0.6, 80, 300}};
     for (const double temperature : {310.0, 1700.0, 2500.0, 3500.0, 5000.0, 12000.0})
-        for (const double per_flux : {1e-12, 1e-8, 1e-5, 1e-3})
-        {
+        for (const double per_flux : {1e-12, 1e-8, 1e-5, 1e-3}) {
             const double before = material.enthalpy(temperature);
             const double lost = implicit_losses(losses, material, before, per_flux).total();
             const double after = material.temperature(before - lost);
-            const auto residual = [&](double x)
-            { return per_flux * losses.heat_flux(material.temperature(before - x)).total() - x; };
+            const auto residual = [&](double x) {
+                return per_flux * losses.heat_flux(material.temperature(before - x)).total() - x;
+            };
             EXPECT_GE(lost, 0.0);
             EXPECT_LE(after, temperature);
             EXPECT_GT(after, 299.0);
-            const double near = 1e-4 * 700 + 1e-9 * lost;      // 10⁻⁴ K, and round-off
+            const double near = 1e-4 * 700 + 1e-9 * lost; // 10⁻⁴ K, and round-off
             EXPECT_GE(residual(lost - near), 0.0) << temperature << " " << per_flux;
             EXPECT_LE(residual(lost + near), 0.0) << temperature << " " << per_flux;
         }
@@ -146,8 +146,7 @@ TEST(ExposedSurface, OfABallIsItsArea)
 TEST(ExposedSurface, OfGrainsOfOneToFourParticlesIsNeverMoreThanTheirOwn)
 {
     const double dx = 1e-5;
-    for (int count = 1; count <= 4; ++count)
-    {
+    for (int count = 1; count <= 4; ++count) {
         int left = count;
         Scene scene = lattice_scene(radiating_case(dx), {0, 0, 0}, {2 * dx, 2 * dx, dx}, 0.0,
                                     [&](const Vector&) { return left-- > 0; });
@@ -158,5 +157,5 @@ TEST(ExposedSurface, OfGrainsOfOneToFourParticlesIsNeverMoreThanTheirOwn)
     }
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

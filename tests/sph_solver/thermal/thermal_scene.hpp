@@ -65,8 +65,9 @@ inline Boundary wall(std::optional<double> temperature = std::nullopt)
 
 /// Particles on the lattice points of the box lower … upper for which keep(point) holds, each coordinate moved by up to
 /// ± jitter/2 spacings, the same for the same seed everywhere.
-inline Scene lattice_scene(const Case& definition, const Vector& lower, const Vector& upper, double jitter = 0.0,
-                           const std::function<bool(const Vector&)>& keep = [](const Vector&) { return true; })
+inline Scene lattice_scene(
+    const Case& definition, const Vector& lower, const Vector& upper, double jitter = 0.0,
+    const std::function<bool(const Vector&)>& keep = [](const Vector&) { return true; })
 {
     const double dx = definition.spacing;
     const bool flat = definition.dimensions == 2;
@@ -76,12 +77,10 @@ inline Scene lattice_scene(const Case& definition, const Vector& lower, const Ve
     std::vector<Vector> points;
     for (int b = 0; b < (flat ? 1 : cells(lower.y, upper.y)); ++b)
         for (int a = 0; a < cells(lower.x, upper.x); ++a)
-            for (int c = 0; c < cells(lower.z, upper.z); ++c)
-            {
+            for (int c = 0; c < cells(lower.z, upper.z); ++c) {
                 const Vector p{lower.x + (a + 0.5) * dx, flat ? 0.0 : lower.y + (b + 0.5) * dx,
                                lower.z + (c + 0.5) * dx};
-                if (keep(p))
-                    points.push_back({p.x + shift(), flat ? 0.0 : p.y + shift(), p.z + shift()});
+                if (keep(p)) points.push_back({p.x + shift(), flat ? 0.0 : p.y + shift(), p.z + shift()});
             }
     // Threads would spend more time waiting for each other than working in scenes of a few hundred particles.
     omp_set_num_threads(points.size() < 3000 ? 1 : omp_get_num_procs());
@@ -94,8 +93,7 @@ inline Scene lattice_scene(const Case& definition, const Vector& lower, const Ve
     scene.particles = std::make_unique<Particles>(static_cast<Index>(points.size()));
     Particles& particles = *scene.particles;
     const double volume = flat ? dx * dx : dx * dx * dx;
-    for (Index i = 0; i < particles.count(); ++i)
-    {
+    for (Index i = 0; i < particles.count(); ++i) {
         particles.position.set(i, points[static_cast<std::size_t>(i)]);
         particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
         particles.volume[i] = volume;
@@ -123,4 +121,4 @@ inline int run(ThermalStep& step, const NeighbourList& list, double end, double 
     return steps;
 }
 
-}  // namespace cupel::thermal_tests
+} // namespace cupel::thermal_tests

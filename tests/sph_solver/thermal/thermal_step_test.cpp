@@ -47,7 +47,7 @@ TEST(ThermalStep, EnergyLedgerClosesWithEverythingOn)
     const NeighbourList list = neighbours(scene);
     run(step, list, 4e-4);
     const HeatBooks& books = step.books();
-    EXPECT_NEAR(books.laser_emitted, 200 * 2.8e-4, 1e-9);   // off after 0.14 mm at 0.5 m/s
+    EXPECT_NEAR(books.laser_emitted, 200 * 2.8e-4, 1e-9); // off after 0.14 mm at 0.5 m/s
     EXPECT_GT(books.laser_hit, 0.999 * books.laser_emitted);
     EXPECT_LT(step.laser_absorption_error(), 1e-12);
     EXPECT_GT(books.evaporation, 0.0);
@@ -63,8 +63,7 @@ TEST(ThermalStep, EnergyLedgerClosesWithEverythingOn)
 
 TEST(ThermalStep, EvaporationHoldsTheSurfaceBelowWhatItWouldReach)
 {
-    const auto greatest_peak = [](const std::vector<std::string>& physics)
-    {
+    const auto greatest_peak = [](const std::vector<std::string>& physics) {
         Scene scene = track_scene(2e-5, physics);
         ThermalStep step(scene);
         const NeighbourList list = neighbours(scene);
@@ -95,8 +94,8 @@ TEST(ThermalStep, RegistersOnlyWhatTheCaseNames)
 {
     Scene plain = track_scene(2e-5, {});
     ThermalStep plain_step(plain);
-    for (const char* name : {"liquid_fraction", "metal", "exposed_area", "velocity_divergence",
-                             "artificial_conductivity"})
+    for (const char* name :
+         {"liquid_fraction", "metal", "exposed_area", "velocity_divergence", "artificial_conductivity"})
         EXPECT_FALSE(plain.particles->has(name)) << name;
     Scene full = track_scene(2e-5, everything);
     ThermalStep full_step(full);
@@ -139,8 +138,7 @@ TEST(ThermalStep, GoesOnFromACheckpointBitForBit)
     resumed_step.load(numbers);
     EXPECT_EQ(resumed_step.ledger().closure(), step.ledger().closure());
 
-    for (int n = 10; n < 20; ++n)
-    {
+    for (int n = 10; n < 20; ++n) {
         step.advance(list, n * time_step, time_step);
         resumed_step.advance(resumed_list, n * time_step, time_step);
     }
@@ -149,6 +147,25 @@ TEST(ThermalStep, GoesOnFromACheckpointBitForBit)
     EXPECT_EQ(step.books().laser_absorbed, resumed_step.books().laser_absorbed);
     numbers.erase("heat.laser_hit");
     EXPECT_THROW(resumed_step.load(numbers), std::out_of_range);
+}
+
+TEST(ThermalStep, DoesNotDependOnTheNumberOfThreads)
+{
+    const auto enthalpies = [](int threads) {
+        Scene scene = track_scene(1.25e-5, everything);
+        ThermalStep step(scene);
+        const NeighbourList list = neighbours(scene);
+        omp_set_num_threads(threads);
+        for (int n = 0; n < 5; ++n)
+            step.advance(list, n * 2e-6, 2e-6);
+        std::vector<double> result(scene.particles->scalar("enthalpy").values.begin(),
+                                   scene.particles->scalar("enthalpy").values.end());
+        result.push_back(step.ledger().end);
+        result.push_back(step.books().walls_out);
+        result.push_back(step.books().radiation);
+        return result;
+    };
+    EXPECT_EQ(enthalpies(1), enthalpies(3));
 }
 
 TEST(ThermalStep, NotANumberIsFound)
@@ -167,15 +184,13 @@ TEST(ThermalStep, WallParticlesTakeNoPartAndHaveTheirWallsTemperature)
     Scene scene = lattice_scene(definition, {0, -1.2e-4, -1.6e-4}, {3e-4, 1.2e-4, 0});
     Particles& particles = *scene.particles;
     for (Index i = 0; i < particles.count(); ++i)
-        if (particles.position[i].z < -1e-4)
-            particles.kind[static_cast<std::size_t>(i)] = Kind::wall;
+        if (particles.position[i].z < -1e-4) particles.kind[static_cast<std::size_t>(i)] = Kind::wall;
     scene.definition.initial.temperature = 1000;
     ThermalStep step(scene);
     const NeighbourList list = neighbours(scene);
     run(step, list, 2e-4);
     for (Index i = 0; i < particles.count(); ++i)
-        if (particles.kind[static_cast<std::size_t>(i)] == Kind::wall)
-        {
+        if (particles.kind[static_cast<std::size_t>(i)] == Kind::wall) {
             EXPECT_EQ(particles.scalar("temperature")[i], 300.0);
             EXPECT_EQ(particles.scalar("heating_power")[i], 0.0);
         }
@@ -192,20 +207,17 @@ TEST(ThermalStep, SumsOfPlacesFollowParticlesThatMove)
     step.advance(list, 0, 1e-9);
     // The upper half lifts off by four spacings: a new surface opens.
     for (Index i = 0; i < particles.count(); ++i)
-        if (const Vector p = particles.position[i]; p.z > -6e-5)
-        {
+        if (const Vector p = particles.position[i]; p.z > -6e-5) {
             particles.position.set(i, {p.x, p.y, p.z + 8e-5});
             particles.velocity.set(i, {0, 0, 1});
         }
     list.build(particles);
     step.advance(list, 1e-9, 1e-9);
-    const auto mean_below_the_gap = [&]
-    {
+    const auto mean_below_the_gap = [&] {
         double sum = 0.0;
         int count = 0;
         for (Index i = 0; i < particles.count(); ++i)
-            if (particles.position[i].z > 0 && particles.position[i].z < 4e-5)
-            {
+            if (particles.position[i].z > 0 && particles.position[i].z < 4e-5) {
                 sum += particles.scalar("exposed_area")[i];
                 ++count;
             }
@@ -216,8 +228,7 @@ TEST(ThermalStep, SumsOfPlacesFollowParticlesThatMove)
 
 TEST(ArtificialHeat, MovesHeatWithoutMakingAnyAndOnlyWhereTheFlowDiverges)
 {
-    const auto advanced = [](double strength, double divergence)
-    {
+    const auto advanced = [](double strength, double divergence) {
         Scene scene = lattice_scene(heat_case(plain_metal(), 3, 1e-5), {}, {1e-4, 1e-4, 1e-4}, 0.2);
         scene.definition.numerics.artificial_heat = strength;
         scene.definition.initial.temperature = 300;
@@ -245,5 +256,5 @@ TEST(ArtificialHeat, HasTheConductivityOfItsFormula)
     EXPECT_EQ(conductivity(0, 7000, 780), 0);
 }
 
-}  // namespace
-}  // namespace cupel::thermal_tests
+} // namespace
+} // namespace cupel::thermal_tests

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fixedGradientFvPatchFields.H"
+#include "height_function.hpp"
+
+namespace cupel
+{
+namespace
+{
+const scalar full = 0.99, empty_share = 0.01; // where a column counts as inside or outside
+const int reach = 6;                          // cells on each side: MULES spreads the interface over three or four
+
+/// First and second derivative at the middle of three points at −a, 0, b.
+void derivatives(scalar below, scalar here, scalar above, scalar a, scalar b, scalar& first, scalar& second)
+{
+    const scalar slope_below = (here - below) / a, slope_above = (above - here) / b;
+    first = (slope_below * b + slope_above * a) / (a + b);
+    second = 2 * (slope_above - slope_below) / (a + b);
+}
+} // namespace
+
+HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, scalar contact_angle)
+    : cell_index_(fraction.mesh().nCells()), spacing_(spacing)
+{
+    const fvMesh& mesh = fraction.mesh();
+    forAll (mesh.boundary(), patch) {
+        const fvPatch& boundary = mesh.boundary()[patch];
+        const fvPatchScalarField& values = fraction.boundaryField()[patch];
+        const bool wets = isA<fixedGradientFvPatchScalarField>(values);
+        const bool continues =
+            wets || isA<zeroGradientFvPatchScalarField>(values) || boundary.type() == "symmetryPlane";
+        const vector outward = gSum(boundary.Sf());
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!continues || mag(outward[axis]) < 0.9 * mag(outward)) continue;
+            Side& side = sides_[axis][outward[axis] > 0 ? 1 : 0];
+            side.continues = true;
+            side.cotangent = wets ? Foam::cos(contact_angle) / Foam::sin(contact_angle) : 0;
+        }
+    }
+    const scalar resolution = 1e-3 * spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        // centres of the cells along this axis, over all ranks, and their widths from the recursion of mid-points
+        List<scalarList> parts(Pstream::nProcs());
+        parts[Pstream::myProcNo()] = mesh.C().primitiveField().component(axis)();
+        Pstream::gatherList(parts);
+        Pstream::scatterList(parts);
+        std::vector<scalar> all;
+        for (const scalarList& part : parts)
+            all.insert(all.end(), part.begin(), part.end());
+        std::sort(all.begin(), all.end());
+        std::vector<scalar>& centres = lines_[axis].centres;
+        for (const scalar value : all)
+            if (centres.empty() || value - centres.back() > resolution) centres.push_back(value);
+        scalar face = mesh.bounds().min()[axis];
+        for (const scalar centre : centres) {
+            lines_[axis].widths.push_back(2 * (centre - face));
+            face += lines_[axis].widths.back();
+        }
+        forAll (mesh.C(), cell) {
+            const auto found = std::lower_bound(centres.begin(), centres.end(), mesh.C()[cell][axis] - resolution);
+            cell_index_[cell][axis] = int(found - centres.begin());
+        }
+    }
+}
+
+bool HeightFunction::height(const std::vector<scalar>& fraction, Index start, int axis, int outward,
+                            scalar& position) const
+{
+    const Line& line = lines_[axis];
+    const int count = int(line.widths.size()), from = start[axis];
+    const auto share = [&](int k) {
+        start[axis] = k;
+        return fraction[flat(start)];
+    };
+    int inside = from, outside = from;
+    for (int step = 0; share(inside) < full; ++step) {
+        inside -= outward;
+        if (step == reach || inside < 0 || inside >= count) return false;
+    }
+    for (int step = 0; share(outside) > empty_share; ++step) {
+        outside += outward;
+        if (step == reach || outside < 0 || outside >= count) return false;
+    }
+    position = outward * line.centres[inside] - 0.5 * line.widths[inside];
+    for (int k = inside; k != outside + outward; k += outward)
+        position += min(max(share(k), scalar(0)), scalar(1)) * line.widths[k];
+    return true;
+}
+
+scalar HeightFunction::spacing_between(int axis, int index) const
+{
+    const Line& line = lines_[axis];
+    if (index < 0) return line.widths.front();
+    if (index + 1 >= int(line.centres.size())) return line.widths.back();
+    return line.centres[index + 1] - line.centres[index];
+}
+
+scalar HeightFunction::slope(const scalar (&row)[3], int axis, int index) const
+{
+    const int last = int(lines_[axis].widths.size()) - 1;
+    if (last == 0) return 0;
+    const int from = index > 0 ? 0 : 1, to = index < last ? 2 : 1; // one-sided beside a side
+    const scalar below = index > 0 ? spacing_between(axis, index - 1) : 0,
+                 above = index < last ? spacing_between(axis, index) : 0;
+    return (row[to] - row[from]) / (below + above);
+}
+
+bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
+                                     scalar& curvature) const
+{
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    scalar heights[3][3] = {};
+    const bool flat_x = lines_[x].widths.size() == 1, flat_y = lines_[y].widths.size() == 1; // a scene in a plane
+    const auto is_behind = [this](int along, int index) {
+        return index < 0 || index >= int(lines_[along].widths.size());
+    };
+    for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j) {
+            Index column = cell;
+            column[x] += flat_x ? 0 : i;
+            column[y] += flat_y ? 0 : j;
+            if (is_behind(x, column[x]) || is_behind(y, column[y])) continue;
+            if (!height(fraction, column, axis, outward, heights[i + 1][j + 1])) return false;
+        }
+    // rows behind a side: first those along x, then those along y with the corners that the first have filled
+    for (int i = -1; i <= 1 && !flat_x; i += 2) {
+        if (!is_behind(x, cell[x] + i)) continue;
+        const Side& side = sides_[x][i > 0];
+        if (!side.continues) return false;
+        for (int j = 0; j < 3; ++j) {
+            if (!flat_y && is_behind(y, cell[y] + j - 1)) continue;
+            const scalar along = slope(heights[1], y, cell[y]);
+            heights[i + 1][j] = heights[1][j] + side.cotangent * lines_[x].widths[cell[x]] * std::sqrt(1 + sqr(along));
+        }
+    }
+    for (int j = -1; j <= 1 && !flat_y; j += 2) {
+        if (!is_behind(y, cell[y] + j)) continue;
+        const Side& side = sides_[y][j > 0];
+        if (!side.continues) return false;
+        const scalar middle[3] = {heights[0][1], heights[1][1], heights[2][1]};
+        for (int i = 0; i < 3; ++i) {
+            heights[i][j + 1] = heights[i][1] + side.cotangent * lines_[y].widths[cell[y]] *
+                                                    std::sqrt(1 + sqr(slope(middle, x, cell[x])));
+        }
+    }
+    const auto distance = [this](int along, int index) { return spacing_between(along, index); };
+    scalar first_x = 0, second_x = 0, first_y = 0, second_y = 0, mixed = 0;
+    if (!flat_x)
+        derivatives(heights[0][1], heights[1][1], heights[2][1], distance(x, cell[x] - 1), distance(x, cell[x]),
+                    first_x, second_x);
+    if (!flat_y)
+        derivatives(heights[1][0], heights[1][1], heights[1][2], distance(y, cell[y] - 1), distance(y, cell[y]),
+                    first_y, second_y);
+    if (!flat_x && !flat_y) {
+        mixed = (heights[2][2] - heights[2][0] - heights[0][2] + heights[0][0]) /
+                ((distance(x, cell[x] - 1) + distance(x, cell[x])) * (distance(y, cell[y] - 1) + distance(y, cell[y])));
+    }
+    const scalar numerator =
+        second_x * (1 + sqr(first_y)) + second_y * (1 + sqr(first_x)) - 2 * mixed * first_x * first_y;
+    curvature = -numerator / std::pow(1 + sqr(first_x) + sqr(first_y), 1.5);
+    return mag(curvature) * spacing_ < 2; // a sphere smaller than a cell is noise
+}
+
+void HeightFunction::apply(volScalarField& curvature, const volScalarField& fraction,
+                           const volVectorField& gradient) const
+{
+    std::vector<scalar> shares(lines_[0].widths.size() * lines_[1].widths.size() * lines_[2].widths.size(), 0);
+    forAll (fraction, cell)
+        shares[flat(cell_index_[cell])] = fraction[cell];
+    if (Pstream::parRun()) {
+        scalarList all(label(shares.size()));
+        std::copy(shares.begin(), shares.end(), all.begin());
+        Pstream::listCombineGather(all, plusEqOp<scalar>());
+        Pstream::listCombineScatter(all);
+        std::copy(all.begin(), all.end(), shares.begin());
+    }
+    const scalar near_interface = 1e-3 / spacing_;
+    forAll (curvature, cell) {
+        const vector& slope = gradient[cell];
+        if (mag(slope) < near_interface) continue;
+        std::array<int, 3> axes = {{0, 1, 2}};
+        std::sort(axes.begin(), axes.end(), [&slope](int one, int two) { return mag(slope[one]) > mag(slope[two]); });
+        for (int choice = 0; choice < 2; ++choice) {
+            const int axis = axes[choice];
+            scalar value = 0;
+            if (mag(slope[axis]) < 0.3 * mag(slope)) break;
+            if (curvature_along(shares, cell_index_[cell], axis, slope[axis] > 0 ? -1 : 1, value)) {
+                curvature[cell] = value;
+                break;
+            }
+        }
+    }
+    curvature.correctBoundaryConditions();
+}
+} // namespace cupel

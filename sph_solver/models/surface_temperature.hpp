@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "models/surface_geometry.hpp"
+
+namespace cupel
+{
+
+/// Temperature that surface tension and recoil are evaluated at: the kernel mean over the metal around,
+///
+///   T̄_i = Σ_j V_j T_j W_ij / Σ_j V_j W_ij      [K]
+///
+/// A surface force acts on a band as wide as the kernel and its temperature is that of the band. The outermost particle
+/// alone, in a gradient of a hundred kelvins a micrometre, would give the exponential recoil a temperature that belongs
+/// to half a spacing of depth, and blow the film off that carries it. Both means meet as the spacing goes to zero.
+struct SurfaceTemperature
+{
+    Mobility mobility;
+    const ScalarField& volume;
+    const ScalarField& temperature;
+    const std::vector<Kind>& kind;
+    const ScalarField& surface_delta;
+    ScalarField& mean;
+
+    struct Near
+    {
+    };
+    struct Sum
+    {
+        Lanes weight{}, temperature{};
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility.weight[i] != 0.0 && surface_delta[i] > 0.0) return false;
+        return true;
+    }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return;
+        const double volume_j = volume[j];
+        sum.weight += volume_j * pair.kernel;
+        sum.temperature += (volume_j * temperature[j]) * pair.kernel;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        store_if(mean, cluster, sum.temperature / sum.weight, [&](Index i) { return mobility.weight[i] != 0.0; });
+    }
+};
+
+} // namespace cupel

@@ -1,0 +1,164 @@
+#include "kernels/pair_loop.hpp"
+
+#include <omp.h>
+
+#include <gtest/gtest.h>
+
+#include "small_scenes.hpp"
+
+namespace cupel
+{
+namespace
+{
+
+using small_scenes::jittered_lattice;
+
+constexpr double support = 3.0;
+
+/// Σ V_j W_ij and Σ V_j ∇W_ij: enough to see every pair and its direction.
+struct Probe
+{
+    const ScalarField& volume;
+    ScalarField& filling;
+    VectorField& gradient;
+
+    struct Near
+    {};
+    struct Sum
+    {
+        Lanes filling{};
+        VectorLanes gradient{};
+    };
+
+    bool idle(const Cluster&) const { return false; }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    {
+        sum.filling += volume[j] * pair.kernel;
+        sum.gradient += (volume[j] * pair.gradient_over_r) * pair.offset;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        filling.store(cluster.first, cluster.count, sum.filling);
+        gradient.store(cluster.first, cluster.count, sum.gradient);
+    }
+};
+
+struct Probed
+{
+    Particles particles;
+    std::vector<double> filling_by_identity;
+};
+
+Probed probe(Particles particles, double skin, int dimensions)
+{
+    NeighbourList list(support, skin, 1.0, dimensions);
+    list.build(particles);
+    std::vector<Index> all(static_cast<std::size_t>(list.cluster_count()));
+    for (std::size_t c = 0; c < all.size(); ++c)
+        all[c] = static_cast<Index>(c);
+    const QuinticSpline kernel(1.0, dimensions);
+    for_each_pair(list, particles, kernel, all,
+                  Probe{particles.volume, particles.add_scalar({"filling", "1"}),
+                        particles.add_vector({"filling_gradient", "1/m"})});
+    Probed result{std::move(particles), {}};
+    result.filling_by_identity.resize(static_cast<std::size_t>(result.particles.count()));
+    for (Index i = 0; i < result.particles.count(); ++i)
+        result.filling_by_identity[static_cast<std::size_t>(result.particles.identity[static_cast<std::size_t>(i)])] =
+            result.particles.scalar("filling")[i];
+    return result;
+}
+
+class EveryDimension : public testing::TestWithParam<int>
+{};
+
+TEST_P(EveryDimension, EqualsTheSumOverAllPairs)
+{
+    const int dimensions = GetParam();
+    const Probed probed = probe(jittered_lattice(9, dimensions, 0.4), 0.3, dimensions);
+    const Particles& particles = probed.particles;
+    const QuinticSpline kernel(1.0, dimensions);
+    for (Index i = 0; i < particles.count(); ++i) {
+        double filling = 0.0;
+        Vector gradient{};
+        for (Index j = 0; j < particles.count(); ++j) {
+            const Vector offset = particles.position[i] - particles.position[j];
+            const double r = std::sqrt(dot(offset, offset)) + 1e-12;
+            filling += kernel(r).value;
+            gradient += kernel(r).gradient_over_r * offset;
+        }
+        EXPECT_NEAR(particles.scalar("filling")[i], filling, 1e-12);
+        EXPECT_NEAR(norm(particles.vector("filling_gradient")[i] - gradient), 0.0, 1e-11);
+    }
+}
+
+TEST_P(EveryDimension, KernelOnALatticeSumsToOne)
+{
+    const int dimensions = GetParam();
+    const Probed probed = probe(jittered_lattice(9, dimensions, 0.0), 0.3, dimensions);
+    const Index middle = probed.particles.place_of(probed.particles.count() / 2);
+    // The quintic spline with h = Δx: 1 within 0.1 % (sum over the lattice, no free parameter).
+    EXPECT_NEAR(probed.particles.scalar("filling")[middle], 1.0, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, EveryDimension, testing::Values(2, 3));
+
+TEST(PairLoop, NumberOfThreadsDoesNotChangeABit)
+{
+    omp_set_num_threads(1);
+    const Probed one = probe(jittered_lattice(14, 3, 0.4), 0.3, 3);
+    omp_set_num_threads(3);
+    const Probed three = probe(jittered_lattice(14, 3, 0.4), 0.3, 3);
+    EXPECT_EQ(one.filling_by_identity, three.filling_by_identity);
+}
+
+TEST(NeighbourList, StaysCompleteUntilAParticleHasMovedHalfTheSkin)
+{
+    const double skin = 0.4;
+    Particles particles = jittered_lattice(8, 3, 0.3);
+    NeighbourList list(support, skin, 1.0, 3);
+    list.build(particles);
+    std::vector<Index> moving(static_cast<std::size_t>(particles.count()));
+    for (std::size_t k = 0; k < moving.size(); ++k)
+        moving[k] = static_cast<Index>(k);
+    // Every second particle goes one way and the others the other way: the worst that the rule allows.
+    for (Index i = 0; i < particles.count(); ++i)
+        particles.position.x[static_cast<std::size_t>(i)] += (i % 2 ? 0.499 : -0.499) * skin;
+    EXPECT_FALSE(list.outdated(particles, moving));
+    for (Index c = 0; c < list.cluster_count(); ++c) {
+        const auto near = list.neighbours(c);
+        for (Index i = list.cluster(c).first; i < list.cluster(c).first + list.cluster(c).count; ++i)
+            for (Index j = 0; j < particles.count(); ++j) {
+                const bool listed = std::find(near.begin(), near.end(), j) != near.end();
+                EXPECT_TRUE(listed || norm(particles.position[i] - particles.position[j]) >= support);
+            }
+    }
+    particles.position.x[0] += 0.01 * skin * (0 % 2 ? 1.0 : -1.0);
+    EXPECT_TRUE(list.outdated(particles, moving));
+}
+
+TEST(NeighbourList, OrderDependsOnPositionsAndIdentitiesAlone)
+{
+    Particles once = jittered_lattice(8, 3, 0.3);
+    NeighbourList list(support, 0.3, 1.0, 3);
+    list.build(once);
+    const std::vector<Index> first = once.identity;
+    std::vector<Index> shuffled(first.size());
+    for (std::size_t k = 0; k < shuffled.size(); ++k)
+        shuffled[k] = static_cast<Index>((k * 37 + 5) % shuffled.size());
+    once.permute(shuffled);
+    list.build(once);
+    EXPECT_EQ(once.identity, first);
+}
+
+TEST(NeighbourList, SpreadParticlesAreAnErrorNotAnAllocation)
+{
+    Particles particles = jittered_lattice(3, 3, 0.0);
+    particles.position.x[0] = 1e12;
+    particles.position.y[1] = 1e12;
+    NeighbourList list(support, 0.3, 1.0, 3);
+    EXPECT_THROW(list.build(particles), std::runtime_error);
+}
+
+} // namespace
+} // namespace cupel

@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include "models/colour_profile.hpp"
+#include "models/continuity.hpp"
+#include "models/equation_of_state.hpp"
+#include "models/momentum.hpp"
+#include "models/shifting.hpp"
+#include "models/surface_forces.hpp"
+#include "small_scenes.hpp"
+
+namespace cupel
+{
+namespace
+{
+
+using small_scenes::jittered_lattice;
+
+/// A jittered block of liquid with its list, for one term at a time.
+struct Block
+{
+    explicit Block(int dimensions_, int n = 12, double jitter = 0.25)
+        : dimensions(dimensions_), particles(jittered_lattice(n, dimensions_, jitter)),
+          mobility(particles.add_scalar({"mobility", "1"}, 1.0)), neighbourhood(3.0, 0.3, 1.0, dimensions_),
+          kernel(1.0, dimensions_), correction(CorrectionMatrix::register_in(particles))
+    {
+        for (Index i = 0; i < particles.count(); ++i)
+            mobility[i] = 1.0;
+        neighbourhood.rebuild(particles, mobility);
+        run(GradientCorrection{{mobility}, dimensions, particles.volume, correction});
+    }
+    template <class Term> void run(const Term& term)
+    {
+        for_each_pair(neighbourhood.list(), particles, kernel, neighbourhood.moving(), term);
+    }
+
+    int dimensions;
+    Particles particles;
+    ScalarField& mobility;
+    Neighbourhood neighbourhood;
+    QuinticSpline kernel;
+    CorrectionMatrix correction;
+};
+
+class FlowModels : public testing::TestWithParam<int>
+{};
+INSTANTIATE_TEST_SUITE_P(Dimensions, FlowModels, testing::Values(2, 3));
+
+TEST_P(FlowModels, CorrectedGradientOfALinearFieldIsExact)
+{
+    Block block(GetParam());
+    ScalarField& value = block.particles.add_scalar({"value", "1"});
+    VectorField& gradient = block.particles.add_vector({"gradient", "1/m"});
+    const Vector exact{1.5, GetParam() == 2 ? 0.0 : -2.0, 0.5};
+    for (Index i = 0; i < block.particles.count(); ++i)
+        value[i] = 3.0 + dot(exact, block.particles.position[i]);
+    block.run(ScalarGradient{{block.mobility}, block.particles.volume, value, gradient});
+    for (Index i = 0; i < block.particles.count(); ++i)
+        EXPECT_NEAR(norm(block.correction[i] * gradient[i] - exact), 0.0, 1e-10);
+}
+
+TEST_P(FlowModels, ShearFlowHasNoDivergence)
+{
+    Block block(GetParam());
+    VectorField& zero = block.particles.add_vector({"density_gradient", "kg/m4"});
+    ScalarField& rate = block.particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    for (Index i = 0; i < block.particles.count(); ++i)
+        block.particles.velocity.set(i, {2.0 * block.particles.position[i].z, 0.0, 0.0});
+    block.run(Continuity{{block.mobility},
+                         block.particles.volume,
+                         block.particles.density,
+                         block.particles.velocity,
+                         zero,
+                         block.correction,
+                         0.0,
+                         rate});
+    for (Index i = 0; i < block.particles.count(); ++i)
+        EXPECT_NEAR(rate[i], 0.0, 1e-10);
+}
+
+TEST_P(FlowModels, PressureAndViscosityConserveMomentum)
+{
+    Block block(GetParam());
+    VectorField& force = block.particles.add_vector({"force", "N"});
+    for (Index i = 0; i < block.particles.count(); ++i) {
+        const Vector p = block.particles.position[i];
+        block.particles.pressure[i] = std::sin(p.x) * std::cos(2.0 * p.z);
+        block.particles.velocity.set(i, {std::cos(p.z), 0.0, std::sin(p.x * p.z)});
+    }
+    block.run(FreeSurfaceMomentum{{block.mobility},
+                                  block.particles.volume,
+                                  block.particles.pressure,
+                                  block.particles.velocity,
+                                  block.correction,
+                                  0.1,
+                                  force});
+    Vector total{};
+    double size = 0.0;
+    for (Index i = 0; i < block.particles.count(); ++i) {
+        total += force[i];
+        size += norm(force[i]);
+    }
+    EXPECT_LT(norm(total), 1e-12 * size);
+}
+
+TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
+{
+    Block block(GetParam());
+    Particles& particles = block.particles;
+    ScalarField& strain = particles.add_scalar({"strain_rate", "1/s"});
+    VectorField& gradient = particles.add_vector({"colour_gradient", "1/m"});
+    VectorField& shift = particles.add_vector({"shift", "m/s"});
+    ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
+    VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
+    const auto shifting = [&] {
+        block.run(StrainRate{{block.mobility}, particles.volume, particles.velocity, block.correction, strain});
+        block.run(ShiftingVelocity{{block.mobility},
+                                   1.0,
+                                   1.0,
+                                   100.0,
+                                   block.kernel(1.0).value,
+                                   1e9,
+                                   particles.volume,
+                                   strain,
+                                   &gradient,
+                                   shift});
+    };
+    shifting();
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_EQ(norm(shift[i]), 0.0);
+    for (Index i = 0; i < particles.count(); ++i)
+        particles.velocity.set(i, {3.0 * particles.position[i].z, 0.0, 0.0});
+    shifting();
+    // Simple shear u = 3 z has γ̇ = 3.
+    EXPECT_NEAR(strain[0], 3.0, 1e-9);
+    block.run(ShiftingExchange{{block.mobility},
+                               particles.volume,
+                               particles.density,
+                               particles.velocity,
+                               shift,
+                               density_rate,
+                               mass_rate,
+                               momentum_rate});
+    double total = 0.0, size = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        total += mass_rate[i];
+        size += std::abs(mass_rate[i]);
+    }
+    EXPECT_GT(size, 0.0);
+    EXPECT_LT(std::abs(total), 1e-12 * size);
+}
+
+TEST(EquationOfState, DensityAndPressureAreInverse)
+{
+    for (const double exponent : {1.0, 7.0}) {
+        const EquationOfState state{20.0, exponent};
+        EXPECT_NEAR(state.density(state.pressure(1010.0, 1000.0), 1000.0), 1010.0, 1e-9);
+        EXPECT_EQ(state.pressure(1000.0, 1000.0), 0.0);
+    }
+}
+
+TEST(ColourProfile, IsOneHalfOnTheSurfaceAndInverseToItself)
+{
+    const QuinticSpline kernel(1.0, 3);
+    const ColourProfile profile(kernel, 3);
+    EXPECT_NEAR(profile.depth(0.5), 0.0, 1e-12);
+    // w integrates to one: what lies above s and what lies below add up.
+    double integral = 0.0;
+    for (int k = -3000; k < 3000; ++k)
+        integral += 1e-3 * profile.plane_weight((k + 0.5) * 1e-3);
+    EXPECT_NEAR(integral, 1.0, 1e-4);
+    EXPECT_NEAR(profile.depth(0.8), -profile.depth(0.2), 1e-12);
+}
+
+TEST(SurfaceForces, PointWhereTheyShould)
+{
+    const Vector up{0, 0, 1};
+    // A drop (κ > 0 with n̂ out of it) is pressed together, recoil pushes in, and metal is drawn to the cold side.
+    EXPECT_LT(surface_tension_force(1.0, 2.0, up, 3.0).z, 0.0);
+    EXPECT_DOUBLE_EQ(surface_tension_force(1.0, 2.0, up, 3.0).z, -6.0);
+    EXPECT_DOUBLE_EQ(recoil_force(5.0, up, 3.0).z, -15.0);
+    const Vector f = marangoni_force(-4e-4, {1000.0, 0.0, 500.0}, up, 2.0);
+    EXPECT_DOUBLE_EQ(f.x, -0.8);
+    EXPECT_DOUBLE_EQ(f.z, 0.0);
+}
+
+TEST(SurfaceTensionLaw, FallsLinearlyToItsFloor)
+{
+    const SurfaceTensionLaw steel{1.2, -4.3e-4, 1723.0, 0.1};
+    EXPECT_NEAR(steel(2723.0), 0.77, 1e-12);
+    EXPECT_EQ(steel(9000.0), 0.1);
+}
+
+} // namespace
+} // namespace cupel
