@@ -94,8 +94,9 @@ void FreeSurfaceFlow::shift_next(const Neighbourhood& neighbourhood)
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h,
                                    0.1 * parameters_.equation_of_state.sound_speed, kernel_(scene_.spacing).value,
-                                   0.05 / h, particles_.volume, *strain_rate_, &surface_->fields().colour_gradient,
-                                   *shift_});
+                                   0.05 / h, particles_.volume, *strain_rate_, particles_.mass,
+                                   rest_density_ * scene_.particle_volume(), surface_->fields().companions,
+                                   surface_->fewest_companions(), &surface_->fields().colour_gradient, *shift_});
 }
 
 void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
@@ -125,6 +126,9 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     for (std::size_t m = 0; m < count; ++m)
         density_gradient_.set(moving[m], correction_[moving[m]] * density_gradient_[moving[m]]);
 
+    // What is hit at a good part of the artificial speed of sound, or caught between solids that melt and freeze around
+    // it, is cushioned instead of throwing everything around it. The history shows how far densities went.
+    constexpr double limit = 0.25;
     const double diffusion = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                              parameters_.equation_of_state.sound_speed;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
@@ -135,6 +139,10 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         particles_.density[i] += time_step * density_rate_[i];
+        // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
+        if (surface_ && started_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
+        particles_.density[i] =
+            std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
     }
@@ -142,6 +150,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     give_walls_volume(neighbourhood);
 
     if (surface_) surface_->update(neighbourhood);
+    started_ = true;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   FreeSurfaceMomentum{mobility_, particles_.volume, particles_.pressure, particles_.velocity,
                                       correction_, scene_.materials.front().viscosity.value(), force_});

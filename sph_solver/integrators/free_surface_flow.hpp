@@ -26,6 +26,7 @@ private:
     VectorField& density_gradient_;
     ScalarField& density_rate_;
     double rest_density_;
+    bool started_ = false; ///< the surface has been found once
     // Only where the case shifts particles:
     VectorField* shift_ = nullptr;
     VectorField* shift_momentum_rate_ = nullptr;

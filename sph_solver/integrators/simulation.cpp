@@ -61,6 +61,12 @@ Simulation::Simulation(Scene scene)
     const auto& upper = scene_.definition.domain.upper;
     lower_ = {lower[0] - reach(0), lower[1] - reach(2), lower[2] - reach(4)};
     upper_ = {upper[0] + reach(1), upper[1] + reach(3), upper[2] + reach(5)};
+    const auto wall = [&](std::size_t side) {
+        const auto& boundary = scene_.definition.domain.boundaries[side];
+        return walled && boundary && boundary->kind == BoundaryKind::wall ? 0.1 * scene_.spacing : -no_limit;
+    };
+    wall_lower_ = {lower[0] + wall(0), lower[1] + wall(2), lower[2] + wall(4)};
+    wall_upper_ = {upper[0] - wall(1), upper[1] - wall(3), upper[2] - wall(5)};
     if (open) escaped_ = &particles.add_scalar({"escaped", "1"});
 }
 
@@ -141,6 +147,32 @@ bool Simulation::outside(const Vector& p) const
     return p.x < lower_.x || p.x > upper_.x || p.y < lower_.y || p.y > upper_.y || p.z < lower_.z || p.z > upper_.z;
 }
 
+/// A wall's extrapolated pressure repels liquid, but not a single particle that creeps along it at no pressure at all:
+/// such a one is stopped a tenth of a spacing before the wall.
+void Simulation::hold_before_walls()
+{
+    Particles& particles = *scene_.particles;
+    const auto hold = [](double& x, double& v, double least, double most) {
+        if (x < least) {
+            x = least;
+            v = std::max(v, 0.0);
+        }
+        if (x > most) {
+            x = most;
+            v = std::min(v, 0.0);
+        }
+    };
+    const auto& moving = neighbourhood_.moving_particles();
+    const auto count = moving.size();
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m) {
+        const auto k = static_cast<std::size_t>(moving[m]);
+        hold(particles.position.x[k], particles.velocity.x[k], wall_lower_.x, wall_upper_.x);
+        hold(particles.position.y[k], particles.velocity.y[k], wall_lower_.y, wall_upper_.y);
+        hold(particles.position.z[k], particles.velocity.z[k], wall_lower_.z, wall_upper_.z);
+    }
+}
+
 /// What has flown out through a side without a wall stops there: it takes no further part in the flow. Its mass and
 /// energy stay in the books.
 void Simulation::retire_escaped()
@@ -171,6 +203,7 @@ void Simulation::advance_flow(double time_step)
 {
     kick(0.5 * time_step);
     flow_->drift(neighbourhood_, time_step);
+    hold_before_walls();
     neighbourhood_.update(*scene_.particles, mobility_);
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);

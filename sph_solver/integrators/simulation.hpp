@@ -68,6 +68,7 @@ private:
     bool flows(Index i) const;
     void kick(double time_step);
     void retire_escaped();
+    void hold_before_walls();
     bool outside(const Vector& position) const;
 
     Scene scene_;
@@ -82,8 +83,9 @@ private:
     const ScalarField* liquid_fraction_ = nullptr;
     ScalarField* molten_neighbours_ = nullptr; ///< only where the case melts and flows
     ScalarField* standing_neighbours_ = nullptr;
-    ScalarField* escaped_ = nullptr; ///< only where a side of the domain is open to what flies
-    Vector lower_{}, upper_{};       ///< beyond these a particle has left, m
+    ScalarField* escaped_ = nullptr;     ///< only where a side of the domain is open to what flies
+    Vector wall_lower_{}, wall_upper_{}; ///< liquid stays between these, m; infinite where there is no wall
+    Vector lower_{}, upper_{};           ///< beyond these a particle has left, m
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
     std::string last_binding_;
     std::uint64_t steps_ = 0, updates_ = 0;

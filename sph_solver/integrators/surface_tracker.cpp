@@ -59,7 +59,7 @@ void SurfaceTracker::update(const Neighbourhood& neighbourhood)
 void SurfaceTracker::find_surface(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  ColourGradient{mobility_, two_phase_, h_, particles_.volume, particles_.kind, fields_});
+                  ColourGradient{mobility_, two_phase_, h_, particles_.volume, fields_});
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 #pragma omp parallel for schedule(static)
@@ -72,7 +72,7 @@ void SurfaceTracker::find_surface(const Neighbourhood& neighbourhood)
     for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
         const bool near_surface = fields_.in_band[i] != 0.0 || fields_.raw_curvature[i] > 0.0;
-        const bool spray = fields_.companions[i] < thresholds_.fewest_companions * full_companions_;
+        const bool spray = is_spray(i);
         if (!near_surface || spray) fields_.delta[i] = 0.0;
     }
 }

@@ -23,6 +23,9 @@ public:
     void update(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }
+    /// Whether a particle has too few companions to be part of a body of liquid. As of the last update.
+    bool is_spray(Index i) const { return fields_.companions[i] < fewest_companions(); }
+    double fewest_companions() const { return thresholds_.fewest_companions * full_companions_; }
 
 private:
     void find_surface(const Neighbourhood& neighbourhood);

@@ -8,7 +8,6 @@
 #include "integrators/parameters.hpp"
 #include "models/exposed_surface.hpp"
 #include "models/heat_conduction.hpp"
-#include "models/laser_spreading.hpp"
 
 namespace cupel
 {
@@ -64,9 +63,6 @@ ThermalStep::ThermalStep(Scene& scene)
     if (definition.requires_physics("laser")) {
         if (!definition.laser) throw CaseError("laser: the physics 'laser' needs it; add [laser]");
         laser_.emplace(*definition.laser, scene.spacing, scene.dimensions);
-        laser_definition_ = definition.laser;
-        hit_power_ = &particles_.add_scalar({"laser_hit_power", "W"});
-        laser_share_ = &particles_.add_scalar({"laser_share", "W m3"});
         absorptivity_ = definition.laser->absorptivity;
     }
     set_losses(scene);
@@ -164,7 +160,7 @@ void ThermalStep::advance(const NeighbourList& list, double time, double time_st
     conduct(list);
     if (walls_.any_temperature()) conduct_through_walls(time_step);
     if (laser_) {
-        const LaserBeam::Power power = light(list, time, time_step);
+        const LaserBeam::Power power = laser_->illuminate(particles_, *metal_, time, time_step, power_);
         books_.laser_emitted += power.emitted * time_step;
         books_.laser_hit += power.hit * time_step;
         books_.laser_absorbed += power.absorbed * time_step;
@@ -209,23 +205,6 @@ void ThermalStep::update_geometry(const NeighbourList& list)
     for_each_pair(list, particles_, kernel_, stale_clusters_, completeness,
                   ExposedSurface{particles_.volume, *metal_, particles_.position, walls_, smoothing_length_,
                                  outermost_layer_share(walls_.layers(), spacing_), *exposed_area_});
-}
-
-/// What the beam gives to particles during a step: rays to the surface, then spread over the kernel.
-LaserBeam::Power ThermalStep::light(const NeighbourList& list, double time, double time_step)
-{
-    std::fill(hit_power_->values.begin(), hit_power_->values.end(), 0.0);
-    std::fill(laser_share_->values.begin(), laser_share_->values.end(), 0.0);
-    const LaserBeam::Power power = laser_->illuminate(particles_, *metal_, time, time_step, *hit_power_);
-    if (power.absorbed == 0.0) return power;
-    for_each_pair(list, particles_, kernel_, all_clusters_, LaserShares{*metal_, *hit_power_, *laser_share_});
-    // The beam moves less than its reach during a step; both of its places are inside.
-    const auto from = laser_definition_->position(time), to = laser_definition_->position(time + time_step);
-    const double moved = std::hypot(to[0] - from[0], to[1] - from[1]);
-    const double reach = 2.5 * laser_definition_->spot_radius + kernel_.support() + 2.0 * smoothing_length_ + moved;
-    for_each_pair(list, particles_, kernel_, all_clusters_,
-                  LaserSpreading{particles_.position, *metal_, *laser_share_, to[0], to[1], reach, power_});
-    return power;
 }
 
 void ThermalStep::conduct(const NeighbourList& list)

@@ -95,7 +95,6 @@ private:
     void set_stable_time_step(const Scene& scene);
     void find_stale_clusters(const NeighbourList& list);
     void update_geometry(const NeighbourList& list);
-    LaserBeam::Power light(const NeighbourList& list, double time, double time_step);
     void conduct(const NeighbourList& list);
     void conduct_through_walls(double time_step);
     void apply(double time_step);
@@ -114,9 +113,6 @@ private:
     ThermalWalls walls_;
     SurfaceLosses losses_;
     std::optional<LaserBeam> laser_;
-    std::optional<Laser> laser_definition_;
-    ScalarField* hit_power_ = nullptr; ///< only with a laser
-    ScalarField* laser_share_ = nullptr;
     double absorptivity_ = 0;
     ScalarField& temperature_;
     ScalarField& enthalpy_;

@@ -47,8 +47,9 @@ struct MoltenNeighbours
         standing.store(cluster.first, cluster.count, sum.standing);
     }
 
-    /// Share of a full neighbourhood that has to be molten before a film leaves its solid.
-    static constexpr double film_share = 0.1;
+    /// Share of a full neighbourhood that has to be molten before a film leaves its solid: four of 33 in three
+    /// dimensions.
+    static constexpr double film_share = 0.25;
 };
 
 } // namespace cupel

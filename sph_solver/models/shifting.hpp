@@ -72,6 +72,10 @@ struct ShiftingVelocity
     double tangential_above;  ///< |∇c| above which only the tangential part is kept, 1/m
     const ScalarField& volume;
     const ScalarField& strain_rate;
+    const ScalarField& mass;
+    double lattice_mass; ///< of a particle at the start, kg
+    const ScalarField& companions;
+    double fewest_companions;           ///< with fewer, a particle is spray and is left alone
     const VectorField* colour_gradient; ///< out of the liquid, 1/m
     VectorField& shift;
 
@@ -95,7 +99,12 @@ struct ShiftingVelocity
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            const double speed = std::min(20.0 * strength * smoothing_length * strain_rate[i], greatest_speed);
+            // A particle that has lost or gained a fifth of its mass exchanges no more of it by its own doing.
+            const double balance = companions[i] < fewest_companions
+                                       ? 0.0
+                                       : std::clamp(1.0 - 5.0 * std::abs(mass[i] / lattice_mass - 1.0), 0.0, 1.0);
+            const double speed =
+                balance * std::min(20.0 * strength * smoothing_length * strain_rate[i], greatest_speed);
             Vector u = (-2.0 * smoothing_length * speed) *
                        Vector{sum.concentration.x[lane], sum.concentration.y[lane], sum.concentration.z[lane]};
             const double limit = 0.1 * speed;

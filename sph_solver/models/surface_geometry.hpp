@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "models/term.hpp"
 
@@ -17,7 +16,7 @@ struct SurfaceFields
     ScalarField& colour;
     VectorField& colour_gradient; ///< −∇c, 1/m: points out of the liquid
     ScalarField& smoothed_colour; ///< Σ V W c (free surface), Σ V W c / Σ V W (two phases)
-    ScalarField& companions;      ///< liquid or solid neighbours, not walls, within two smoothing lengths
+    ScalarField& companions;      ///< neighbours of any kind within two smoothing lengths, itself included
     VectorField& normal;          ///< n̂, out of the liquid
     VectorField& smoothed_normal;
     ScalarField& delta;         ///< δ, 1/m: its integral across the surface is one
@@ -62,7 +61,6 @@ struct ColourGradient
     bool two_phase;
     double smoothing_length;
     const ScalarField& volume;
-    const std::vector<Kind>& kind;
     SurfaceFields surface;
 
     struct Near
@@ -83,8 +81,7 @@ struct ColourGradient
         sum.gradient -= (volume_j * (colour_j - i.colour) * pair.gradient_over_r) * pair.offset;
         sum.colour += (volume_j * colour_j) * pair.kernel;
         sum.weight += volume_j * pair.kernel;
-        if (kind[static_cast<std::size_t>(j)] != Kind::wall)
-            sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(1.0) : Lanes{};
+        sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(1.0) : Lanes{};
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

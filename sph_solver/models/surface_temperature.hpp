@@ -24,8 +24,7 @@ struct SurfaceTemperature
     ScalarField& mean;
 
     struct Near
-    {
-    };
+    {};
     struct Sum
     {
         Lanes weight{}, temperature{};

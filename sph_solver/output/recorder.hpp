@@ -60,6 +60,7 @@ private:
     double output_time(std::uint64_t number) const;
     double primary_volume() const;
     double total_mass() const;
+    double greatest_density_error_now() const;
 
     Simulation& simulation_;
     RecorderOptions options_;

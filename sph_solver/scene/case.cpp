@@ -115,7 +115,6 @@ Numerics numerics_from(const json& table)
 {
     Numerics numerics;
     numerics.formulation = table.at("formulation");
-    numerics.kernel = table.at("kernel") == "wendland_c2" ? Kernel::wendland_c2 : Kernel::quintic_spline;
     numerics.smoothing_ratio = table.at("smoothing_ratio");
     numerics.artificial_viscosity = table.at("artificial_viscosity");
     numerics.artificial_viscosity_beta = table.at("artificial_viscosity_beta");
@@ -128,9 +127,7 @@ Numerics numerics_from(const json& table)
     numerics.reference_speed = optional_number(table, "reference_speed");
     numerics.time_step_factor = table.at("time_step_factor");
     numerics.thermal_time_step_factor = table.at("thermal_time_step_factor");
-    numerics.single_precision = table.at("precision") == "float";
     numerics.skin = table.at("skin");
-    numerics.only_what_moves = table.at("only_what_moves");
     numerics.background_pressure_factor = table.at("background_pressure_factor");
     return numerics;
 }

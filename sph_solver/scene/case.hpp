@@ -135,15 +135,12 @@ struct TimeSpan
     double output_interval = 0; ///< of field snapshots [s]
 };
 
-enum class Kernel { quintic_spline, wendland_c2 };
-
 /// Numerical choices of the SPH solver; the meaning and default of each are in its declaration
 /// (declarations_numerics.cpp).
 struct Numerics
 {
     std::string formulation = "default"; ///< "default" or "paper"
-    Kernel kernel = Kernel::quintic_spline;
-    double smoothing_ratio = 1.0; ///< smoothing length / particle spacing
+    double smoothing_ratio = 1.0;        ///< smoothing length / particle spacing
     double artificial_viscosity = 0;
     double artificial_viscosity_beta = 0;
     double artificial_stress = 0;
@@ -155,9 +152,7 @@ struct Numerics
     std::optional<double> reference_speed; ///< greatest expected speed [m/s]
     double time_step_factor = 1;
     double thermal_time_step_factor = 1;
-    bool single_precision = false; ///< pair arithmetic in float
-    double skin = 0;               ///< extra radius of the neighbour list / particle spacing
-    bool only_what_moves = true;
+    double skin = 0; ///< extra radius of the neighbour list / particle spacing
     double background_pressure_factor = 0;
 };
 

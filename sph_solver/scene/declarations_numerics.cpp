@@ -33,15 +33,14 @@ Table numerics_declaration()
         true,
         {choice("formulation", {"default", "paper"}, "set of SPH remedies: Cupel's own, or the paper's")
              .or_else("default"),
-         choice("kernel", {"quintic_spline", "wendland_c2"}, "smoothing kernel").or_else("quintic_spline"),
          quantity("smoothing_ratio", "1", "smoothing length over particle spacing")
              .at_least(0.8)
              .at_most(3)
-             .derived("1.0 with quintic_spline, 1.5 with wendland_c2"),
+             .or_else(1.0),
          quantity("artificial_viscosity", "1", "alpha of Monaghan's artificial viscosity; 0 = off")
              .at_least(0)
              .at_most(2)
-             .or_else(0.02)
+             .or_else(0.0)
              .in_paper(0.1),
          quantity("artificial_viscosity_beta", "1", "beta of Monaghan's artificial viscosity")
              .at_least(0)
@@ -83,14 +82,10 @@ Table numerics_declaration()
              .above(0)
              .at_most(10)
              .or_else(1.0),
-         choice("precision", {"double", "float"}, "arithmetic of pairs; positions are in double always")
-             .or_else("double"),
          quantity("skin", "1", "extra radius of the neighbour lists over particle spacing")
              .at_least(0)
              .at_most(2)
              .or_else(0.3),
-         plain("only_what_moves", Type::boolean, "momentum of molten material and a shell around it only")
-             .or_else(true),
          quantity("background_pressure_factor", "1", "background pressure of two-phase runs over rho c^2")
              .at_least(0)
              .at_most(1)

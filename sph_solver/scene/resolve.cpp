@@ -211,8 +211,6 @@ json resolved_measures(const json& values, const Node& document)
 json resolved_numerics(const json& values)
 {
     json numerics = values.at("numerics");
-    if (!numerics.contains("smoothing_ratio"))
-        numerics["smoothing_ratio"] = numerics.at("kernel") == "wendland_c2" ? 1.5 : 1.0;
     numerics["sound_speed"] = member_or_null(numerics, "sound_speed");
     numerics["reference_speed"] = member_or_null(numerics, "reference_speed");
     return numerics;

@@ -109,6 +109,7 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     ScalarField& strain = particles.add_scalar({"strain_rate", "1/s"});
     VectorField& gradient = particles.add_vector({"colour_gradient", "1/m"});
     VectorField& shift = particles.add_vector({"shift", "m/s"});
+    ScalarField& companions = particles.add_scalar({"companions", "1"}, 10.0);
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
     VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
@@ -122,6 +123,10 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
                                    1e9,
                                    particles.volume,
                                    strain,
+                                   particles.mass,
+                                   1.0,
+                                   companions,
+                                   4.0,
                                    &gradient,
                                    shift});
     };
