@@ -1,6 +1,7 @@
 #include "integrators/free_surface_flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "models/continuity.hpp"
@@ -21,6 +22,7 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
+        balance_ = &particles_.add_scalar({"shifting_balance", "1"});
         strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
         if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
@@ -71,13 +73,18 @@ void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_s
 {
     const auto& list = neighbourhood.list();
     for_each_pair(list, particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
+    // Walls and solids have the mass that they started with or froze with, and no say in it.
+    std::fill(balance_->values.begin(), balance_->values.end(), 1.0);
+    const double lattice_mass = rest_density_ * scene_.particle_volume();
+    for (const Index i : neighbourhood.moving_particles())
+        (*balance_)[i] = std::clamp(1.0 - 5.0 * std::abs(particles_.mass[i] / lattice_mass - 1.0), 0.0, 1.0);
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   ShiftingExchange{mobility_, particles_.volume, particles_.density, particles_.velocity, *shift_,
-                                   density_rate_, *mass_rate_, *shift_momentum_rate_});
+                                   *balance_, density_rate_, *mass_rate_, *shift_momentum_rate_});
     if (enthalpy_)
-        for_each_pair(
-            list, particles_, kernel_, neighbourhood.moving(),
-            EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *energy_rate_});
+        for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+                      EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
+                                       *energy_rate_});
     for (const Index i : neighbourhood.moving_particles()) {
         const double mass = particles_.mass[i] + time_step * (*mass_rate_)[i];
         if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
@@ -126,9 +133,10 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     for (std::size_t m = 0; m < count; ++m)
         density_gradient_.set(moving[m], correction_[moving[m]] * density_gradient_[moving[m]]);
 
-    // What is hit at a good part of the artificial speed of sound, or caught between solids that melt and freeze around
-    // it, is cushioned instead of throwing everything around it. The history shows how far densities went.
-    constexpr double limit = 0.25;
+    // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
+    // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
+    // densities went.
+    constexpr double limit = 0.05;
     const double diffusion = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                              parameters_.equation_of_state.sound_speed;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),

@@ -31,6 +31,7 @@ private:
     VectorField* shift_ = nullptr;
     VectorField* shift_momentum_rate_ = nullptr;
     ScalarField* mass_rate_ = nullptr;
+    ScalarField* balance_ = nullptr;
     ScalarField* strain_rate_ = nullptr;
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;

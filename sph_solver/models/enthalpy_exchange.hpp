@@ -17,12 +17,14 @@ struct EnthalpyExchange
     const ScalarField& density;
     const ScalarField& enthalpy;
     const VectorField& shift;
+    const ScalarField& balance; ///< as in ShiftingExchange
     ScalarField& energy_rate;
 
     struct Near
     {
         Lanes volume, density, enthalpy;
         VectorLanes shift;
+        Lanes balance;
     };
     struct Sum
     {
@@ -32,12 +34,13 @@ struct EnthalpyExchange
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {volume.lanes(first), density.lanes(first), enthalpy.lanes(first), shift.lanes(first)};
+        return {volume.lanes(first), density.lanes(first), enthalpy.lanes(first), shift.lanes(first),
+                balance.lanes(first)};
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         if (mobility.weight[j] == 0.0) return;
-        const Lanes weight = i.volume * volume[j] * pair.gradient_over_r;
+        const Lanes weight = i.volume * volume[j] * minimum(i.balance, all_lanes(balance[j])) * pair.gradient_over_r;
         sum.power += weight * ((density[j] * enthalpy[j]) * dot(broadcast(shift[j]), pair.offset) +
                                i.density * i.enthalpy * dot(i.shift, pair.offset));
     }

@@ -159,7 +159,9 @@ struct WallShift
 ///   dρ_i/dt  += Σ_j Φ_ij/V_i − ρ_i Σ_j V_j (δu_j − δu_i)·∇W_ij                              [kg/(m³ s)]
 ///   m_i dv_i/dt += Σ_j V_i V_j ρ_j (δu_j·∇W_ij)(v_j − v_i)                                  [N]
 ///
-/// Φ is antisymmetric, so mass is conserved to round-off between liquid particles; walls exchange none.
+/// Each pair's exchange is multiplied by min(b_i, b_j), b = max(0, 1 − 5 |m/m₀ − 1|): no particle gains or loses more
+/// than a fifth of its mass. Φ is antisymmetric, so mass is conserved to round-off between liquid particles; walls
+/// exchange none.
 struct ShiftingExchange
 {
     Mobility mobility;
@@ -167,6 +169,7 @@ struct ShiftingExchange
     const ScalarField& density;
     const VectorField& velocity;
     const VectorField& shift;
+    const ScalarField& balance; ///< b, 1: falls to 0 as a particle's mass leaves its bounds
     ScalarField& density_rate;  ///< added to
     ScalarField& mass_rate;     ///< kg/s
     VectorField& momentum_rate; ///< N
@@ -175,6 +178,7 @@ struct ShiftingExchange
     {
         Lanes volume, density;
         VectorLanes velocity, shift;
+        Lanes balance;
     };
     struct Sum
     {
@@ -185,12 +189,13 @@ struct ShiftingExchange
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {volume.lanes(first), density.lanes(first), velocity.lanes(first), shift.lanes(first)};
+        return {volume.lanes(first), density.lanes(first), velocity.lanes(first), shift.lanes(first),
+                balance.lanes(first)};
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double density_j = density[j], liquid = mobility.weight[j];
-        const Lanes weight = volume[j] * pair.gradient_over_r;
+        const Lanes weight = volume[j] * minimum(i.balance, all_lanes(balance[j])) * pair.gradient_over_r;
         const Lanes own = weight * dot(i.shift, pair.offset);
         const Lanes other = weight * dot(broadcast(shift[j]), pair.offset);
         const Lanes flux = density_j * other + i.density * own;

@@ -110,6 +110,7 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     VectorField& gradient = particles.add_vector({"colour_gradient", "1/m"});
     VectorField& shift = particles.add_vector({"shift", "m/s"});
     ScalarField& companions = particles.add_scalar({"companions", "1"}, 10.0);
+    ScalarField& balance = particles.add_scalar({"balance", "1"}, 1.0);
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
     VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
@@ -143,6 +144,7 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
                                particles.density,
                                particles.velocity,
                                shift,
+                               balance,
                                density_rate,
                                mass_rate,
                                momentum_rate});
