@@ -27,7 +27,11 @@ public:
     virtual void evaluate(const Neighbourhood& neighbourhood, double time_step) = 0;
 
     /// A particle that has just melted or solidified starts from rest.
-    virtual void reset(Index place) { acceleration_.set(place, {}); }
+    virtual void reset(Index place)
+    {
+        acceleration_.set(place, {});
+        if (surface_) surface_->reset(place);
+    }
 
     const VectorField& acceleration() const { return acceleration_; }
     /// Null where the scene has no force on the surface.

@@ -85,6 +85,8 @@ void SurfaceTracker::finish_gradient(Index i)
     const bool defined = slope * h_ > smallest;
     fields_.delta[i] = defined ? (two_phase_ ? 1.0 : 2.0) * slope : 0.0;
     fields_.normal.set(i, defined ? (1.0 / slope) * gradient : Vector{});
+    // A cluster without any surface is skipped by the curvature fit: what it found the last time must not be left.
+    fields_.curvature_valid[i] = 0.0;
     fields_.in_band[i] = slope * h_ > thresholds_.band ? 1.0 : 0.0;
     const double reach = 2.5 * h_;
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);

@@ -23,6 +23,13 @@ public:
     void update(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }
+    /// A particle that has just melted or frozen is at no surface until the next update finds it there.
+    void reset(Index place)
+    {
+        fields_.delta[place] = 0.0;
+        fields_.curvature_valid[place] = 0.0;
+        fields_.curvature[place] = 0.0;
+    }
     /// Whether a particle has too few companions to be part of a body of liquid. As of the last update.
     bool is_spray(Index i) const { return fields_.companions[i] < fewest_companions(); }
     double fewest_companions() const { return thresholds_.fewest_companions * full_companions_; }
