@@ -60,6 +60,7 @@ FlowParameters derive_flow_parameters(const Scene& scene)
     };
     if (definition.requires_physics("surface_tension"))
         // Ten times this speed keeps the Laplace pressure 2σ/L from compressing the liquid by more than 0.2 %.
+        // (Chosen: at 0.25 % a spreading drop lost 0.11 % of its volume, against the 0.1 % that its case allows.)
         consider(std::sqrt(10.0 * liquid.surface_tension.value() / (liquid.density * length)), "surface tension");
     if (definition.requires_physics("gravity"))
         consider(std::sqrt(length_of(definition.gravity) * liquid_height(definition)), "gravity");
