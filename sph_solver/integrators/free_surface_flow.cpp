@@ -141,7 +141,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
                              parameters_.equation_of_state.sound_speed;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   Continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_gradient_,
-                             correction_, diffusion, density_rate_});
+                             diffusion, density_rate_});
     if (shift_) exchange(neighbourhood, time_step);
 #pragma omp parallel for schedule(static)
     for (std::size_t m = 0; m < count; ++m) {
@@ -161,7 +161,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     started_ = true;
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   FreeSurfaceMomentum{mobility_, particles_.volume, particles_.pressure, particles_.velocity,
-                                      correction_, scene_.materials.front().viscosity.value(), force_});
+                                      scene_.materials.front().viscosity.value(), force_});
     if (shift_) {
         for (const Index i : moving)
             force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);

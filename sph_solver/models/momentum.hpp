@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/gradient_correction.hpp"
 #include "models/term.hpp"
 
 namespace cupel
@@ -8,32 +7,24 @@ namespace cupel
 
 /// Pressure and viscous force on a liquid with a free surface:
 ///
-///   m_i dv_i/dt = −Σ_j V_i V_j (p_i + p_j) ∇W_ij + Σ_j 2 μ V_i V_j ℓ_ij (1/r dW/dr) (v_i − v_j)      [N]
-///   ℓ_ij = e_ij · ½(L_i + L_j) e_ij,   e_ij = (x_i − x_j)/r
+///   m_i dv_i/dt = −Σ_j V_i V_j (p_i + p_j) ∇W_ij + Σ_j 2 μ V_i V_j (1/r dW/dr) (v_i − v_j)      [N]
 ///
 /// The first sum is the variational partner of the continuity equation (Colagrossi et al. 2009: consistent at a free
-/// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22, with the factor ℓ_ij from the matrices that
-/// correct gradients (gradient_correction.hpp). A flow stretches the arrangement of its particles; without ℓ the
-/// stretched direction then conducts momentum too well and the other too badly, by a third after one turn of a closed
-/// cell. Both sums are antisymmetric: they conserve momentum between liquid particles to round-off.
+/// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22. Both are antisymmetric: they conserve momentum
+/// between liquid particles to round-off. Shifting keeps the arrangement even, which the second sum relies on.
 struct FreeSurfaceMomentum
 {
     Mobility mobility;
     const ScalarField& volume;
     const ScalarField& pressure;
     const VectorField& velocity;
-    CorrectionMatrix correction;
     double viscosity; ///< μ of the liquid, Pa·s
     VectorField& force;
-
-    /// Bounds of ℓ for particles with too few neighbours for a matrix (spray, films of one particle).
-    static constexpr double smallest_factor = 0.3, greatest_factor = 3.0;
 
     struct Near
     {
         Lanes volume, pressure;
         VectorLanes velocity;
-        Symmetric3<Lanes> correction;
     };
     struct Sum
     {
@@ -41,20 +32,12 @@ struct FreeSurfaceMomentum
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const
-    {
-        return {volume.lanes(first), pressure.lanes(first), velocity.lanes(first), correction.lanes(first)};
-    }
+    Near near(Index first) const { return {volume.lanes(first), pressure.lanes(first), velocity.lanes(first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const Lanes weight = i.volume * volume[j] * pair.gradient_over_r;
         sum.force -= (weight * (i.pressure + pressure[j])) * pair.offset;
-        // Walls have no matrix of their own: the liquid's stands for both.
-        Lanes both = dot(pair.offset, i.correction * pair.offset);
-        if (mobility.weight[j] != 0.0) both = 0.5 * (both + dot(pair.offset, broadcast(correction[j]) * pair.offset));
-        const Lanes factor = minimum(maximum(both / (pair.distance * pair.distance), all_lanes(smallest_factor)),
-                                     all_lanes(greatest_factor));
-        sum.force += (2.0 * viscosity * weight * factor) * (i.velocity - broadcast(velocity[j]));
+        sum.force += (2.0 * viscosity * weight) * (i.velocity - broadcast(velocity[j]));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
