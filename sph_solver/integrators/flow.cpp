@@ -10,7 +10,7 @@
 #include "models/surface_temperature.hpp"
 #include "models/wall_extrapolation.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
@@ -46,10 +46,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
     if (temperature_ && (with_tension_ || with_recoil_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
-    if (with_marangoni_) {
-        temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
-        correction_ = std::make_unique<CorrectionMatrix>(CorrectionMatrix::register_in(particles_));
-    }
+    if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
 void Flow::extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull)
@@ -76,18 +73,17 @@ void Flow::add_remedies(const Neighbourhood& neighbourhood)
                                        particles_.mass, particles_.density, particles_.pressure, force_});
 }
 
-void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood)
+void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, *correction_},
+                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, correction},
                   ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
     for (const Index i : neighbourhood.moving_particles())
-        temperature_gradient_->set(i, (*correction_)[i] * (*temperature_gradient_)[i]);
+        temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
-    if (with_marangoni_) find_temperature_gradient(neighbourhood);
     if (mean_temperature_)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
@@ -124,4 +120,4 @@ std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, 
     return std::make_unique<FreeSurfaceFlow>(scene, parameters, mobility);
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

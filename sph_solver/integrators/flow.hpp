@@ -11,7 +11,7 @@
 #include "models/surface_forces.hpp"
 #include "models/vapour_pressure.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Momentum and mass of the liquid: what a step needs to know of either formulation.
@@ -44,7 +44,9 @@ protected:
     void extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull);
     /// Adds the optional pair forces that the case switches on to force_.
     void add_remedies(const Neighbourhood& neighbourhood);
-    /// acceleration ← force/m + g + surface forces/ρ.
+    /// The corrected gradient of temperature, where surface tension varies with it.
+    void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
+    /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 
     Scene& scene_;
@@ -57,19 +59,17 @@ protected:
     VectorField& acceleration_;
     std::unique_ptr<SurfaceTracker> surface_;
 
-private:
-    void find_temperature_gradient(const Neighbourhood& neighbourhood);
+    ScalarField* temperature_ = nullptr;
+    VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
 
+private:
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
-    ScalarField* temperature_ = nullptr;
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it
-    VectorField* temperature_gradient_ = nullptr;
-    std::unique_ptr<CorrectionMatrix> correction_;
 };
 
 /// Two phases that fill the domain: volume by summation, transport velocity. One phase with a free surface: δ-SPH.
 std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

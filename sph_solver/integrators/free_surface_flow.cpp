@@ -5,19 +5,21 @@
 #include <limits>
 
 #include "models/continuity.hpp"
+#include "models/density_diffusion.hpp"
 #include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
-      density_gradient_(particles_.add_vector({"density_gradient", "kg/m4"})),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
       rest_density_(scene.materials.front().density)
 {
+    if (scene.definition.numerics.density_diffusion > 0.0)
+        density_gradient_ = &particles_.add_vector({"density_gradient", "kg/m4"});
     if (scene.definition.numerics.shifting > 0.0) {
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
@@ -68,23 +70,61 @@ void FreeSurfaceFlow::reset(Index place)
     if (shift_) shift_->set(place, {});
 }
 
-/// Mass, density and momentum that shifting by the last drift carried between particles.
-void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_step)
+/// What the exchange by shifting needs beforehand: the shifting velocity of walls and each particle's say in it.
+void FreeSurfaceFlow::prepare_exchange(const Neighbourhood& neighbourhood)
 {
-    const auto& list = neighbourhood.list();
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
     std::fill(balance_->values.begin(), balance_->values.end(), 1.0);
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     for (const Index i : neighbourhood.moving_particles())
         (*balance_)[i] = std::clamp(1.0 - 5.0 * std::abs(particles_.mass[i] / lattice_mass - 1.0), 0.0, 1.0);
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  ShiftingExchange{mobility_, particles_.volume, particles_.density, particles_.velocity, *shift_,
-                                   *balance_, density_rate_, *mass_rate_, *shift_momentum_rate_});
-    if (enthalpy_)
-        for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                      EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
-                                       *energy_rate_});
+}
+
+/// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.
+void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
+{
+    const auto& clusters = neighbourhood.moving();
+    const Continuity continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_rate_};
+    const auto sum = [&](const auto&... exchanges) {
+        if (!density_gradient_)
+            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, exchanges...);
+        const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                                   parameters_.equation_of_state.sound_speed;
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity,
+                      DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
+                                       diffusivity, density_rate_},
+                      exchanges...);
+    };
+    if (!shift_) return sum();
+    prepare_exchange(neighbourhood);
+    const ShiftingExchange exchange{mobility_, particles_.volume, particles_.density, particles_.velocity,  *shift_,
+                                    *balance_, density_rate_,     *mass_rate_,        *shift_momentum_rate_};
+    if (!enthalpy_) return sum(exchange);
+    sum(exchange, EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
+                                   *energy_rate_});
+}
+
+/// The matrices that correct gradients, where something needs them, and the gradient of density with the same pass.
+void FreeSurfaceFlow::correct_gradients(const Neighbourhood& neighbourhood)
+{
+    if (!density_gradient_ && !shift_ && !temperature_gradient_) return;
+    const GradientCorrection correction{mobility_, scene_.dimensions, particles_.volume, correction_};
+    if (!density_gradient_) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction);
+        return;
+    }
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction,
+                  ScalarGradient{mobility_, particles_.volume, particles_.density, *density_gradient_});
+    const auto& moving = neighbourhood.moving_particles();
+    const auto count = moving.size();
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < count; ++m)
+        density_gradient_->set(moving[m], correction_[moving[m]] * (*density_gradient_)[moving[m]]);
+}
+
+void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
+{
     for (const Index i : neighbourhood.moving_particles()) {
         const double mass = particles_.mass[i] + time_step * (*mass_rate_)[i];
         if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
@@ -92,18 +132,40 @@ void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_s
     }
 }
 
-/// The shifting velocity of the next drift.
-void FreeSurfaceFlow::shift_next(const Neighbourhood& neighbourhood)
+/// Forces between particles, and in the same pass the shifting velocity of the next drift and the gradient that drives
+/// Marangoni flow: all of them need nothing but the state as it is now.
+void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 {
-    const double h = parameters_.smoothing_length;
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  StrainRate{mobility_, particles_.volume, particles_.velocity, correction_, *strain_rate_});
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h,
-                                   0.1 * parameters_.equation_of_state.sound_speed, kernel_(scene_.spacing).value,
-                                   0.05 / h, particles_.volume, *strain_rate_, particles_.mass,
-                                   rest_density_ * scene_.particle_volume(), surface_->fields().companions,
-                                   surface_->fewest_companions(), &surface_->fields().colour_gradient, *shift_});
+    const FreeSurfaceMomentum momentum{mobility_,
+                                       particles_.volume,
+                                       particles_.pressure,
+                                       particles_.velocity,
+                                       scene_.materials.front().viscosity.value(),
+                                       force_};
+    const auto sum = [&](const auto&... others) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, others...);
+    };
+    const auto sum_with_gradient = [&](const auto&... others) {
+        if (!temperature_gradient_) return sum(others...);
+        sum(others..., ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+    };
+    if (!shift_)
+        sum_with_gradient();
+    else {
+        const double h = parameters_.smoothing_length;
+        // The second reads what the first has just stored for the same cluster.
+        sum_with_gradient(StrainRate{mobility_, particles_.volume, particles_.velocity, correction_, *strain_rate_},
+                          ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h,
+                                           0.1 * parameters_.equation_of_state.sound_speed,
+                                           kernel_(scene_.spacing).value, 0.05 / h, particles_.volume, *strain_rate_,
+                                           particles_.mass, rest_density_ * scene_.particle_volume(),
+                                           surface_->fields().companions, surface_->fewest_companions(),
+                                           &surface_->fields().colour_gradient, *shift_});
+    }
+    for (const Index i : neighbourhood.moving_particles()) {
+        if (shift_) force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
+        if (temperature_gradient_) temperature_gradient_->set(i, correction_[i] * (*temperature_gradient_)[i]);
+    }
 }
 
 void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
@@ -120,29 +182,19 @@ void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
 
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    const auto& list = neighbourhood.list();
     const auto& moving = neighbourhood.moving_particles();
     const auto count = moving.size();
 
     extrapolate_to_walls(neighbourhood, false);
     give_walls_volume(neighbourhood);
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, correction_},
-                  ScalarGradient{mobility_, particles_.volume, particles_.density, density_gradient_});
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-        density_gradient_.set(moving[m], correction_[moving[m]] * density_gradient_[moving[m]]);
+    correct_gradients(neighbourhood);
 
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
     // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
     // densities went.
     constexpr double limit = 0.05;
-    const double diffusion = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
-                             parameters_.equation_of_state.sound_speed;
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  Continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_gradient_,
-                             diffusion, density_rate_});
-    if (shift_) exchange(neighbourhood, time_step);
+    find_rates(neighbourhood);
+    if (shift_) exchange_mass(neighbourhood, time_step);
 #pragma omp parallel for schedule(static)
     for (std::size_t m = 0; m < count; ++m) {
         const Index i = moving[m];
@@ -159,16 +211,9 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
 
     if (surface_) surface_->update(neighbourhood);
     started_ = true;
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  FreeSurfaceMomentum{mobility_, particles_.volume, particles_.pressure, particles_.velocity,
-                                      scene_.materials.front().viscosity.value(), force_});
-    if (shift_) {
-        for (const Index i : moving)
-            force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
-        shift_next(neighbourhood);
-    }
+    find_forces(neighbourhood);
     add_remedies(neighbourhood);
     accelerate(neighbourhood);
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -2,7 +2,7 @@
 
 #include "integrators/flow.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// One liquid with nothing around it: continuity equation with density diffusion (δ-SPH), walls and solids by
@@ -18,15 +18,18 @@ public:
 
 private:
     void start_hydrostatic();
-    void shift_next(const Neighbourhood& neighbourhood);
-    void exchange(const Neighbourhood& neighbourhood, double time_step);
+    void correct_gradients(const Neighbourhood& neighbourhood);
+    void prepare_exchange(const Neighbourhood& neighbourhood);
+    void find_rates(const Neighbourhood& neighbourhood);
+    void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
+    void find_forces(const Neighbourhood& neighbourhood);
     void give_walls_volume(const Neighbourhood& neighbourhood);
 
     CorrectionMatrix correction_;
-    VectorField& density_gradient_;
     ScalarField& density_rate_;
     double rest_density_;
-    bool started_ = false; ///< the surface has been found once
+    bool started_ = false;                    ///< the surface has been found once
+    VectorField* density_gradient_ = nullptr; ///< only where density diffuses
     // Only where the case shifts particles:
     VectorField* shift_ = nullptr;
     VectorField* shift_momentum_rate_ = nullptr;
@@ -37,4 +40,4 @@ private:
     ScalarField* energy_rate_ = nullptr;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 Neighbourhood::Neighbourhood(double support, double skin, double spacing, int dimensions)
@@ -53,4 +53,4 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
     }
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -4,7 +4,7 @@
 
 #include "kernels/neighbour_list.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// The neighbour list of a scene and which of its clusters have work: those with liquid that moves, and those with
@@ -32,4 +32,4 @@ private:
     std::vector<Index> all_, moving_, standing_, moving_particles_;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

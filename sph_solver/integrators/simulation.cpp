@@ -6,7 +6,7 @@
 
 #include "models/molten_neighbours.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
@@ -296,4 +296,4 @@ void Simulation::load(const std::map<std::string, double>& numbers)
     if (heat_) heat_->load(numbers);
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

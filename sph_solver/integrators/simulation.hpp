@@ -11,7 +11,7 @@
 #include "models/carman_kozeny.hpp"
 #include "scene/place_particles.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// A scene in time. Only what the case's physics names is constructed; the rest costs nothing.
@@ -92,4 +92,4 @@ private:
     std::map<std::string, std::uint64_t> binding_;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
 {
 
-/// Liquid neighbours within two smoothing lengths in a full lattice (h = Δx), the particle itself included.
+/// Neighbours within counting_reach in a full lattice (h = Δx), the particle itself included.
 constexpr double lattice_companions(int dimensions)
 {
     return dimensions == 2 ? 13.0 : 33.0;
@@ -158,4 +158,4 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
                   CurvatureSmoothing{mobility_, fields_});
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -9,7 +9,7 @@
 #include "models/surface_geometry.hpp"
 #include "models/wetting.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Finds the liquid's surface each step: colour gradient, wall normals where it wets, smoothed normals, curvature.
@@ -53,4 +53,4 @@ private:
     std::optional<WallInterface> wall_interface_;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

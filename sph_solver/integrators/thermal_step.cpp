@@ -9,7 +9,7 @@
 #include "models/exposed_surface.hpp"
 #include "models/heat_conduction.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
@@ -350,4 +350,4 @@ void ThermalStep::load(const std::map<std::string, double>& numbers)
     books_ = books;
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

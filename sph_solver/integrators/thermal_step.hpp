@@ -14,7 +14,7 @@
 #include "models/thermal_walls.hpp"
 #include "scene/place_particles.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Where all the heat went, J since the start, each amount as it was applied to particles.
@@ -130,4 +130,4 @@ private:
     HeatBooks books_;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

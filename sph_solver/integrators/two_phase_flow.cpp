@@ -5,7 +5,7 @@
 #include "models/density_summation.hpp"
 #include "models/momentum.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
@@ -15,6 +15,8 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     double heaviest = 0.0;
     for (const Material& material : scene.materials)
         heaviest = std::max(heaviest, material.density);
+    if (temperature_gradient_)
+        correction_ = std::make_unique<CorrectionMatrix>(CorrectionMatrix::register_in(particles_));
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
     for (Index i = 0; i < particles_.count(); ++i)
@@ -58,8 +60,9 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   TwoPhaseMomentum{mobility_, particles_.volume, particles_.density, particles_.pressure, viscosity_,
                                    particles_.velocity, parameters_.background_pressure, force_, transport_force_});
+    if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
     add_remedies(neighbourhood);
     accelerate(neighbourhood);
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

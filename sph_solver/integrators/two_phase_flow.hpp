@@ -2,7 +2,7 @@
 
 #include "integrators/flow.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Two liquids that fill the domain (Hu & Adams 2006, Adami, Hu, Adams 2010 and 2013): volume by summation, pressure
@@ -18,7 +18,8 @@ public:
 private:
     ScalarField& viscosity_;
     VectorField& transport_force_;
-    double stiffness_; ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
+    std::unique_ptr<CorrectionMatrix> correction_; ///< only for Marangoni flow
+    double stiffness_;                             ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

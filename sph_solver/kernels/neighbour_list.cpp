@@ -1,12 +1,14 @@
 #include "kernels/neighbour_list.hpp"
+#include "kernels/field_lanes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
@@ -14,6 +16,22 @@ namespace
 
 /// Clusters whose lists share one array: enough of them to spread over any number of threads.
 constexpr Index clusters_per_chunk = 256;
+
+/// Consecutive coordinates, measured from `middle`: differences are taken in double, so that float loses nothing.
+Lanes lanes_from(const Array& coordinate, Index first, double middle)
+{
+    Lanes::Register lanes;
+    const double* values = coordinate.data() + first;
+    for (int lane = 0; lane < lane_count; ++lane)
+        lanes[lane] = static_cast<Real>(values[lane] - middle);
+    return Lanes(lanes);
+}
+
+/// How far a coordinate lies beyond ±half.
+Lanes outside(const Lanes& coordinate, double half)
+{
+    return maximum(maximum(coordinate - half, -coordinate - half), 0.0);
+}
 
 } // namespace
 
@@ -46,15 +64,15 @@ void NeighbourList::sort_into_columns(Particles& particles)
     const Index count = particles.count();
     const auto& position = particles.position;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vector upper{-infinity, -infinity, -infinity};
+    upper_ = {-infinity, -infinity, -infinity};
     lower_ = {infinity, infinity, infinity};
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
         lower_ = {std::min(lower_.x, p.x), std::min(lower_.y, p.y), std::min(lower_.z, p.z)};
-        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+        upper_ = {std::max(upper_.x, p.x), std::max(upper_.y, p.y), std::max(upper_.z, p.z)};
     }
-    const double columns_x = std::floor((upper.x - lower_.x) / column_width_) + 1.0;
-    const double columns_y = std::floor((upper.y - lower_.y) / column_width_) + 1.0;
+    const double columns_x = std::floor((upper_.x - lower_.x) / column_width_) + 1.0;
+    const double columns_y = std::floor((upper_.y - lower_.y) / column_width_) + 1.0;
     if (!(columns_x * columns_y < 1e8))
         throw std::runtime_error("particles are spread over more than 10^8 columns: the run has blown up");
     columns_x_ = static_cast<Index>(columns_x);
@@ -115,6 +133,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
             }
             boxes_[static_cast<std::size_t>(c)] = box;
         }
+        std::vector<Index> candidates;
 #pragma omp for schedule(dynamic)
         for (Index chunk = 0; chunk < chunk_count; ++chunk) {
             auto& found = chunks_[static_cast<std::size_t>(chunk)];
@@ -122,26 +141,28 @@ void NeighbourList::find_neighbours(const Particles& particles)
             const Index end = std::min(count, (chunk + 1) * clusters_per_chunk);
             for (Index c = chunk * clusters_per_chunk; c < end; ++c) {
                 const std::size_t begin = found.size();
-                list_cluster(particles, c, found);
+                list_cluster(particles, c, candidates, found);
                 ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(found.size() - begin)};
             }
         }
     }
 }
 
-void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Index>& found) const
+/// Two sieves: a whole cluster of candidates at once against the box of this one, then each that is left against its
+/// particles, which leaves out the corners of the box.
+void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
+                                 std::vector<Index>& found) const
 {
     const double reach = support_ + skin_;
-    const Lanes reach_squared = all_lanes(reach * reach);
+    const auto& position = particles.position;
     const Box& box = boxes_[static_cast<std::size_t>(c)];
     const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
-    VectorLanes here = particles.position.lanes(cluster.first);
-    for (int lane = cluster.count; lane < lane_count; ++lane) {
-        here.x[lane] = here.x[0];
-        here.y[lane] = here.y[0];
-        here.z[lane] = here.z[0];
-    }
-    const auto& position = particles.position;
+    const Vector middle = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
+    // Rounded to float, a distance may seem longer than it is by a few 10⁻⁷ of the offsets that it is made of.
+    const double margin = sizeof(Real) == 4 ? 1e-5 : 1e-14;
+    const double reach_squared = reach * reach * (1.0 + margin);
+
+    candidates.clear();
     for (Index cy = column_y(box.lower.y - reach); cy <= column_y(box.upper.y + reach); ++cy)
         for (Index cx = column_x(box.lower.x - reach); cx <= column_x(box.upper.x + reach); ++cx) {
             const auto column =
@@ -150,13 +171,32 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
                 const Box& other = boxes_[static_cast<std::size_t>(d)];
                 if (other.upper.z < box.lower.z - reach) continue;
                 if (other.lower.z > box.upper.z + reach) break;
-                const Cluster& candidates = clusters_[static_cast<std::size_t>(d)];
-                for (Index j = candidates.first; j < candidates.first + candidates.count; ++j) {
-                    const VectorLanes offset = here - broadcast(position[j]);
-                    if (any(dot(offset, offset) < reach_squared)) found.push_back(j);
-                }
+                const Cluster& near = clusters_[static_cast<std::size_t>(d)];
+                const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
+                                         outside(lanes_from(position.y, near.first, middle.y), half.y),
+                                         outside(lanes_from(position.z, near.first, middle.z), half.z)};
+                unsigned within = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u);
+                for (; within != 0; within &= within - 1)
+                    candidates.push_back(near.first + std::countr_zero(within));
             }
         }
+
+    VectorLanes here{lanes_from(position.x, cluster.first, middle.x), lanes_from(position.y, cluster.first, middle.y),
+                     lanes_from(position.z, cluster.first, middle.z)};
+    for (int lane = cluster.count; lane < lane_count; ++lane) {
+        here.x.set(lane, here.x[0]);
+        here.y.set(lane, here.y[0]);
+        here.z.set(lane, here.z[0]);
+    }
+    const std::size_t before = found.size();
+    found.resize(before + candidates.size());
+    Index* end = found.data() + before;
+    for (const Index j : candidates) {
+        const VectorLanes offset = here - broadcast(position[j] - middle);
+        *end = j;
+        end += set_lanes(dot(offset, offset) < reach_squared) != 0 ? 1 : 0;
+    }
+    found.resize(static_cast<std::size_t>(end - found.data()));
 }
 
 bool NeighbourList::outdated(const Particles& particles, std::span<const Index> moving) const
@@ -185,4 +225,4 @@ std::size_t NeighbourList::bytes() const
     return total + 3 * built_x_.size() * sizeof(double);
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -3,9 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "math/lanes.hpp"
 #include "particles/particles.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Consecutive particles (at most lane_count) that share one list of neighbours.
@@ -15,7 +16,7 @@ struct Cluster
     Index count;
 };
 
-/// Orders particles in vertical columns and keeps, for each cluster of eight, the particles within
+/// Orders particles in vertical columns and keeps, for each cluster, the particles within
 /// support + skin of any of them. A list stays valid while no particle has moved further than skin/2 since it was
 /// built: two particles that were further apart than support + skin then are still further apart than the support.
 class NeighbourList
@@ -40,6 +41,9 @@ public:
     }
     std::uint64_t builds() const { return builds_; }
     double support() const { return support_; }
+    /// Corners of the box that the particles spanned when the list was built, m.
+    const Vector& lower() const { return lower_; }
+    const Vector& upper() const { return upper_; }
     std::size_t bytes() const;
 
 private:
@@ -56,12 +60,13 @@ private:
 
     void sort_into_columns(Particles& particles);
     void find_neighbours(const Particles& particles);
-    void list_cluster(const Particles& particles, Index c, std::vector<Index>& found) const;
+    void list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
+                      std::vector<Index>& found) const;
     Index column_x(double x) const;
     Index column_y(double y) const;
 
     double support_, skin_, column_width_;
-    Vector lower_{};
+    Vector lower_{}, upper_{};
     Index columns_x_ = 0, columns_y_ = 0;
     std::vector<Index> first_cluster_of_column_;
     std::vector<Cluster> clusters_;
@@ -72,4 +77,4 @@ private:
     std::uint64_t builds_ = 0;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -4,69 +4,125 @@
 #include <tuple>
 #include <utility>
 
+#include "kernels/field_lanes.hpp"
 #include "kernels/neighbour_list.hpp"
+#include "kernels/places.hpp"
 #include "kernels/smoothing_kernel.hpp"
 #include "particles/particles.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
-/// What the loop knows of a pair (i, j), for eight particles i at once.
+/// What the loop knows of a pair (i, j), for a cluster of particles i at once.
 struct Pair
 {
-    VectorLanes offset;    ///< x_i − x_j, m
-    Lanes distance;        ///< |x_i − x_j|, m; never zero
-    Lanes kernel;          ///< W_ij
-    Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
+    VectorLanes offset;     ///< x_i − x_j, m
+    Lanes distance;         ///< |x_i − x_j|, m; never zero
+    Lanes inverse_distance; ///< 1/m
+    Lanes kernel;           ///< W_ij
+    Lanes gradient_over_r;  ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
 
     VectorLanes gradient() const { return gradient_over_r * offset; }
 };
 
+/// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
+/// looks into the fields itself.
+template <class Term>
+concept HasFar = requires(const Term& term, Index j)
+{
+    term.far(j);
+};
+
+template <class Term> auto far_of(const Term& term, Index j)
+{
+    if constexpr (HasFar<Term>)
+        return term.far(j);
+    else
+        return j;
+}
+
+/// What is kept of a particle for the length of a pass: all that the loop and the terms need of a neighbour, side by
+/// side in memory.
+template <class... Terms> struct Neighbour
+{
+    Place place;
+    std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
+};
+
+/// Memory that passes share, one after another. Grows to the widest pass and stays.
+std::byte* pass_memory(std::size_t bytes);
+std::size_t pass_memory_bytes();
+
 /// Sums over neighbours, several of them in one pass. A term is a struct with
 ///
-///   struct Near                              what a term needs of particle i (eight of them, in lanes)
+///   struct Near                              what a term needs of particle i (a cluster of them, in lanes)
+///   struct Far                               what it needs of particle j
 ///   struct Sum                               what it adds up, zero to begin with
 ///   Near near(Index first) const             loads it
+///   Far far(Index j) const                   the same for a neighbour
 ///   bool idle(Cluster) const                 true where the term has nothing to do for this cluster
-///   void add(const Near&, Index j, const Pair&, Sum&) const      the formula
-///   void store(Cluster, const Near&, const Sum&) const           keeps the sum
+///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
+///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
 ///
-/// The particle itself is among its neighbours (distance zero, gradient zero, W = W(0)). Each sum is added up by one
-/// thread in the order of the list, so the result does not depend on the number of threads.
+/// Far may be left out: then add() gets the place j. The particle itself is among its neighbours (distance zero,
+/// gradient zero, W = W(0)). Each sum is added up by one thread in the order of the list, so the result does not depend
+/// on the number of threads.
+///
+/// Where most clusters take part, what neighbours are asked for is gathered once for the whole pass; where few do, it
+/// is looked up as they meet it. The numbers are the same.
 template <class Kernel, class... Terms>
 void for_each_pair(const NeighbourList& list, const Particles& particles, const Kernel& kernel,
                    std::span<const Index> clusters, const Terms&... terms)
 {
+    using Record = Neighbour<Terms...>;
     const auto count = static_cast<Index>(clusters.size());
     const double tiny = 1e-18 * list.support() * list.support();
-    const auto& position = particles.position;
+    const Places places(list, particles.position);
+    const auto look_up = [&](Index j) { return Record{places(j), {far_of(terms, j)...}}; };
+
+    const auto sum_up = [&](const auto& neighbour) {
 #pragma omp parallel for schedule(dynamic, 16)
-    for (Index k = 0; k < count; ++k) {
-        const Index c = clusters[static_cast<std::size_t>(k)];
-        const Cluster cluster = list.cluster(c);
-        if ((terms.idle(cluster) && ...)) continue;
-        const VectorLanes here = position.lanes(cluster.first);
-        const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
-        std::tuple<typename Terms::Sum...> sums{};
-        for (const Index j : list.neighbours(c)) {
-            Pair pair;
-            pair.offset = here - broadcast(position[j]);
-            pair.distance = square_root(dot(pair.offset, pair.offset) + tiny);
-            const auto w = kernel(pair.distance);
-            pair.kernel = w.value;
-            pair.gradient_over_r = w.gradient_over_r;
+        for (Index k = 0; k < count; ++k) {
+            const Index c = clusters[static_cast<std::size_t>(k)];
+            const Cluster cluster = list.cluster(c);
+            if ((terms.idle(cluster) && ...)) continue;
+            const PlaceLanes here = places.lanes(cluster.first);
+            const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
+            std::tuple<typename Terms::Sum...> sums{};
+            for (const Index j : list.neighbours(c)) {
+                const Record& other = neighbour(j);
+                Pair pair;
+                pair.offset = places.offset(here, other.place);
+                const Lanes square = dot(pair.offset, pair.offset) + tiny;
+                pair.inverse_distance = reciprocal_square_root(square);
+                pair.distance = square * pair.inverse_distance;
+                const auto w = kernel(pair.distance, pair.inverse_distance);
+                pair.kernel = w.value;
+                pair.gradient_over_r = w.gradient_over_r;
+                [&]<std::size_t... n>(std::index_sequence<n...>)
+                {
+                    (terms.add(std::get<n>(near), std::get<n>(other.far), pair, std::get<n>(sums)), ...);
+                }
+                (std::index_sequence_for<Terms...>{});
+            }
             [&]<std::size_t... n>(std::index_sequence<n...>)
             {
-                (terms.add(std::get<n>(near), j, pair, std::get<n>(sums)), ...);
+                (terms.store(cluster, std::get<n>(near), std::get<n>(sums)), ...);
             }
             (std::index_sequence_for<Terms...>{});
         }
-        [&]<std::size_t... n>(std::index_sequence<n...>)
-        {
-            (terms.store(cluster, std::get<n>(near), std::get<n>(sums)), ...);
-        }
-        (std::index_sequence_for<Terms...>{});
+    };
+
+    if (2 * count < list.cluster_count()) {
+        sum_up(look_up);
+        return;
     }
+    const Index all = particles.count();
+    auto* records = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
+#pragma omp parallel for schedule(static)
+    for (Index j = 0; j < all; ++j)
+        new (records + j) Record(look_up(j));
+    sum_up([records](Index j) -> const Record& { return records[j]; });
 }
 
 /// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.
@@ -89,4 +145,4 @@ template <class Value> double ordered_sum(Index count, const Value& value)
     return total;
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

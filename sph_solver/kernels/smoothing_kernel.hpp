@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "math/lanes.hpp"
+#include "math/vector.hpp"
 
 namespace cupel
 {
@@ -32,19 +32,17 @@ public:
     double smoothing_length() const { return 1.0 / inverse_h_; }
     double support() const { return support_; }
 
-    /// Distance r in m; zero beyond the support.
-    template <class Scalar> KernelValue<Scalar> operator()(const Scalar& r) const
+    /// Distance r in m and its reciprocal; zero beyond the support.
+    template <class Scalar> KernelValue<Scalar> operator()(const Scalar& r, const Scalar& inverse_r) const
     {
         const Scalar zero{};
         const Scalar q = r * inverse_h_;
-        const Scalar three = 3.0 - q, two = 2.0 - q, one = 1.0 - q;
-        const Scalar a = three > zero ? three : zero;
-        const Scalar b = two > zero ? two : zero;
-        const Scalar c = one > zero ? one : zero;
+        const Scalar a = maximum(3.0 - q, zero), b = maximum(2.0 - q, zero), c = maximum(1.0 - q, zero);
         const Scalar a4 = a * a * (a * a), b4 = b * b * (b * b), c4 = c * c * (c * c);
         const Scalar slope = -5.0 * (a4 - 6.0 * b4 + 15.0 * c4);
-        return {factor_ * (a4 * a - 6.0 * (b4 * b) + 15.0 * (c4 * c)), factor_ * inverse_h_ * slope / r};
+        return {factor_ * (a4 * a - 6.0 * (b4 * b) + 15.0 * (c4 * c)), factor_ * inverse_h_ * slope * inverse_r};
     }
+    KernelValue<double> operator()(double r) const { return (*this)(r, 1.0 / r); }
 
 private:
     double inverse_h_, support_, factor_;

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 namespace cupel
 {
 
-/// Three components of one scalar type: double, or Lanes where eight particles are treated at once.
+/// Number of a particle, a cluster or a place.
+using Index = std::int32_t;
+
+/// Three components of one scalar type: double, or Lanes where a cluster of particles is treated at once.
 /// Two-dimensional scenes live in the x-z plane and keep y at zero.
 template <class Scalar> struct VectorOf
 {
@@ -46,6 +50,10 @@ template <class Scalar> Scalar dot(const VectorOf<Scalar>& a, const VectorOf<Sca
 template <class Scalar> VectorOf<Scalar> cross(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double maximum(double a, double b)
+{
+    return a > b ? a : b;
 }
 inline double norm(const VectorOf<double>& a)
 {

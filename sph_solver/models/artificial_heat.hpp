@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Artificial heat against the over-heating of compressed material (Noh 1987, Monaghan 1992; the paper, section 2.3.3):
@@ -35,7 +35,10 @@ struct ArtificialHeat
             if (diffusivity[i] >= 0.0) return false;
         return true;
     }
-    Near near(Index first) const { return {volume.lanes(first), temperature.lanes(first), diffusivity.lanes(first)}; }
+    Near near(Index first) const
+    {
+        return {lanes(volume, first), lanes(temperature, first), lanes(diffusivity, first)};
+    }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         const double diffusivity_j = diffusivity[j];
@@ -84,7 +87,7 @@ struct VelocityDivergence
     };
 
     bool idle(const Cluster&) const { return false; }
-    Near near(Index first) const { return {velocity.lanes(first)}; }
+    Near near(Index first) const { return {lanes(velocity, first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         if (conductivity[j] > 0.0)
@@ -93,8 +96,8 @@ struct VelocityDivergence
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        divergence.store(cluster.first, cluster.count, sum.divergence);
+        store_lanes(divergence, cluster.first, cluster.count, sum.divergence);
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

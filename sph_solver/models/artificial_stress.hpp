@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Artificial stress against clumping (Monaghan 2000, Gray, Monaghan, Swift 2001; the paper, section 2.3.2):
@@ -32,8 +32,8 @@ struct ArtificialStress
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        const Lanes p = pressure.lanes(first), rho = density.lanes(first);
-        return {mass.lanes(first), strength * maximum(p, -p) / (rho * rho)};
+        const Lanes p = lanes(pressure, first), rho = lanes(density, first);
+        return {lanes(mass, first), strength * maximum(p, -p) / (rho * rho)};
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
@@ -51,4 +51,4 @@ struct ArtificialStress
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Monaghan's artificial viscosity (Monaghan 1992; the paper, section 2.3.1), for pairs that approach each other:
@@ -32,7 +32,7 @@ struct ArtificialViscosity
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {mass.lanes(first), density.lanes(first), velocity.lanes(first)}; }
+    Near near(Index first) const { return {lanes(mass, first), lanes(density, first), lanes(velocity, first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         if (mobility.weight[j] == 0.0) return;
@@ -51,4 +51,4 @@ struct ArtificialViscosity
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Volume by summation, for two phases of any density ratio (Hu & Adams 2006):
@@ -38,4 +38,4 @@ struct DensitySummation
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Enthalpy that the mass exchanged by shifting (shifting.hpp) carries with it:
@@ -26,6 +26,11 @@ struct EnthalpyExchange
         VectorLanes shift;
         Lanes balance;
     };
+    struct Far
+    {
+        Real weight, heat, balance; ///< volume of liquid, ρ h
+        VectorOf<Real> shift;
+    };
     struct Sum
     {
         Lanes power{};
@@ -34,14 +39,17 @@ struct EnthalpyExchange
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {volume.lanes(first), density.lanes(first), enthalpy.lanes(first), shift.lanes(first),
-                balance.lanes(first)};
+        return {lanes(volume, first), lanes(density, first), lanes(enthalpy, first), lanes(shift, first),
+                lanes(balance, first)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        if (mobility.weight[j] == 0.0) return;
-        const Lanes weight = i.volume * volume[j] * minimum(i.balance, all_lanes(balance[j])) * pair.gradient_over_r;
-        sum.power += weight * ((density[j] * enthalpy[j]) * dot(broadcast(shift[j]), pair.offset) +
+        return {real(mobility.weight[j] * volume[j]), real(density[j] * enthalpy[j]), real(balance[j]), real(shift[j])};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const Lanes weight = i.volume * j.weight * minimum(i.balance, Lanes(j.balance)) * pair.gradient_over_r;
+        sum.power += weight * (j.heat * dot(broadcast(j.shift), pair.offset) +
                                i.density * i.enthalpy * dot(i.shift, pair.offset));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
@@ -50,4 +58,4 @@ struct EnthalpyExchange
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

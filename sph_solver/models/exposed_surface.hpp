@@ -7,7 +7,7 @@
 #include "models/term.hpp"
 #include "models/thermal_walls.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Where metal faces the surrounding: the gradient of its share of space, summed over all metal, solid or liquid,
@@ -72,4 +72,4 @@ inline double outermost_layer_share(const WallLayers& layers, double spacing)
     return 2.0 * layers.slope(0.5 * spacing) * spacing;
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -4,7 +4,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Matrix that makes gradients exact for linear fields, whatever the arrangement of neighbours (Randles & Libersky
@@ -22,10 +22,6 @@ struct CorrectionMatrix
         const auto field = [&](const char* name) -> ScalarField& { return particles.add_scalar({name, "1"}); };
         return {field("correction_xx"), field("correction_xy"), field("correction_xz"),
                 field("correction_yy"), field("correction_yz"), field("correction_zz")};
-    }
-    Symmetric3<Lanes> lanes(Index first) const
-    {
-        return {xx.lanes(first), xy.lanes(first), xz.lanes(first), yy.lanes(first), yz.lanes(first), zz.lanes(first)};
     }
     Symmetric3<double> operator[](Index i) const { return {xx[i], xy[i], xz[i], yy[i], yz[i], zz[i]}; }
     void set(Index i, const Symmetric3<double>& m) const
@@ -62,6 +58,13 @@ inline Symmetric3<double> safe_inverse(const Symmetric3<double>& m, int dimensio
             (m.xx * m.yy - m.xy * m.xy) * inverse};
 }
 
+/// A cluster's matrices.
+inline Symmetric3<Lanes> lanes(const CorrectionMatrix& m, Index first)
+{
+    return {lanes(m.xx, first), lanes(m.xy, first), lanes(m.xz, first),
+            lanes(m.yy, first), lanes(m.yz, first), lanes(m.zz, first)};
+}
+
 struct GradientCorrection
 {
     Mobility mobility;
@@ -71,6 +74,10 @@ struct GradientCorrection
 
     struct Near
     {};
+    struct Far
+    {
+        Real volume;
+    };
     struct Sum
     {
         Symmetric3<Lanes> moment{};
@@ -78,9 +85,10 @@ struct GradientCorrection
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(volume[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.moment.add_outer(-volume[j] * pair.gradient_over_r, pair.offset);
+        sum.moment.add_outer(-j.volume * pair.gradient_over_r, pair.offset);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -109,16 +117,21 @@ struct ScalarGradient
     {
         Lanes value;
     };
+    struct Far
+    {
+        Real volume, value;
+    };
     struct Sum
     {
         VectorLanes gradient{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {value.lanes(first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Near near(Index first) const { return {lanes(value, first)}; }
+    Far far(Index j) const { return {real(volume[j]), real(value[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.gradient += (volume[j] * (value[j] - i.value) * pair.gradient_over_r) * pair.offset;
+        sum.gradient += (j.volume * (j.value - i.value) * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -126,4 +139,4 @@ struct ScalarGradient
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

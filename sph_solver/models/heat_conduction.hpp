@@ -6,7 +6,7 @@
 #include "models/term.hpp"
 #include "models/thermal_walls.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Heat conduction (Cleary and Monaghan 1999), as power on particle i:
@@ -32,6 +32,10 @@ struct HeatConduction
     {
         Lanes volume, temperature, conductivity, correction;
     };
+    struct Far
+    {
+        Real temperature, conductivity, weight; ///< weight: 4 k_j V_j C_j
+    };
     struct Sum
     {
         Lanes power{};
@@ -45,14 +49,17 @@ struct HeatConduction
     }
     Near near(Index first) const
     {
-        return {volume.lanes(first), temperature.lanes(first), conductivity.lanes(first), correction.lanes(first)};
+        return {lanes(volume, first), lanes(temperature, first), lanes(conductivity, first), lanes(correction, first)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double k_j = conductivity[j];
-        if (!(k_j > 0.0)) return;
-        const Lanes mean = (4.0 * k_j * volume[j] * correction[j]) * i.conductivity / (i.conductivity + k_j);
-        sum.power += mean * (i.temperature - temperature[j]) * pair.gradient_over_r;
+        return {real(temperature[j]), real(conductivity[j]), real(4.0 * conductivity[j] * volume[j] * correction[j])};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        if (!(j.conductivity > 0)) return;
+        const Lanes mean = j.weight * i.conductivity / (i.conductivity + j.conductivity);
+        sum.power += mean * (i.temperature - j.temperature) * pair.gradient_over_r;
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
@@ -96,4 +103,4 @@ struct KernelCompleteness
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -2,7 +2,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Pressure and viscous force on a liquid with a free surface:
@@ -26,18 +26,24 @@ struct FreeSurfaceMomentum
         Lanes volume, pressure;
         VectorLanes velocity;
     };
+    struct Far
+    {
+        Real volume, pressure;
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         VectorLanes force{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {volume.lanes(first), pressure.lanes(first), velocity.lanes(first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Near near(Index first) const { return {lanes(volume, first), lanes(pressure, first), lanes(velocity, first)}; }
+    Far far(Index j) const { return {real(volume[j]), real(pressure[j]), real(velocity[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes weight = i.volume * volume[j] * pair.gradient_over_r;
-        sum.force -= (weight * (i.pressure + pressure[j])) * pair.offset;
-        sum.force += (2.0 * viscosity * weight) * (i.velocity - broadcast(velocity[j]));
+        const Lanes weight = i.volume * j.volume * pair.gradient_over_r;
+        sum.force -= (weight * (i.pressure + j.pressure)) * pair.offset;
+        sum.force += (2.0 * viscosity * weight) * (i.velocity - broadcast(j.velocity));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -70,6 +76,11 @@ struct TwoPhaseMomentum
         Lanes volume, density, pressure, viscosity;
         VectorLanes velocity;
     };
+    struct Far
+    {
+        Real volume, density, pressure, viscosity;
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         VectorLanes force{}, transport{};
@@ -78,17 +89,20 @@ struct TwoPhaseMomentum
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {volume.lanes(first), density.lanes(first), pressure.lanes(first), viscosity.lanes(first),
-                velocity.lanes(first)};
+        return {lanes(volume, first), lanes(density, first), lanes(pressure, first), lanes(viscosity, first),
+                lanes(velocity, first)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double volume_j = volume[j], density_j = density[j], viscosity_j = viscosity[j];
-        const Lanes weight = (i.volume * i.volume + volume_j * volume_j) * pair.gradient_over_r;
-        const Lanes mean_pressure = (density_j * i.pressure + i.density * pressure[j]) / (i.density + density_j);
-        const Lanes mean_viscosity = 2.0 * i.viscosity * viscosity_j / (i.viscosity + viscosity_j);
+        return {real(volume[j]), real(density[j]), real(pressure[j]), real(viscosity[j]), real(velocity[j])};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const Lanes weight = (i.volume * i.volume + j.volume * j.volume) * pair.gradient_over_r;
+        const Lanes mean_pressure = (j.density * i.pressure + i.density * j.pressure) / (i.density + j.density);
+        const Lanes mean_viscosity = 2.0 * i.viscosity * j.viscosity / (i.viscosity + j.viscosity);
         sum.force -= (weight * mean_pressure) * pair.offset;
-        sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(velocity[j]));
+        sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(j.velocity));
         sum.transport -= (weight * background_pressure) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
@@ -99,4 +113,4 @@ struct TwoPhaseMomentum
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

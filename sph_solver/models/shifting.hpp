@@ -6,7 +6,7 @@
 #include "models/gradient_correction.hpp"
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Magnitude of the strain rate, with the corrected gradient of velocity:
@@ -24,17 +24,23 @@ struct StrainRate
     {
         VectorLanes velocity;
     };
+    struct Far
+    {
+        Real volume;
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         VectorLanes x{}, y{}, z{}; // gradients of the three components, not yet corrected
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {velocity.lanes(first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Near near(Index first) const { return {lanes(velocity, first)}; }
+    Far far(Index j) const { return {real(volume[j]), real(velocity[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes weight = (volume[j] * pair.gradient_over_r) * pair.offset;
-        const VectorLanes change = broadcast(velocity[j]) - i.velocity;
+        const VectorLanes weight = (j.volume * pair.gradient_over_r) * pair.offset;
+        const VectorLanes change = broadcast(j.velocity) - i.velocity;
         sum.x += change.x * weight;
         sum.y += change.y * weight;
         sum.z += change.z * weight;
@@ -81,6 +87,10 @@ struct ShiftingVelocity
 
     struct Near
     {};
+    struct Far
+    {
+        Real volume;
+    };
     struct Sum
     {
         VectorLanes concentration{};
@@ -88,11 +98,12 @@ struct ShiftingVelocity
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(volume[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes closeness = pair.kernel / kernel_at_spacing;
+        const Lanes closeness = (1.0 / kernel_at_spacing) * pair.kernel;
         const Lanes square = closeness * closeness;
-        sum.concentration += (volume[j] * (1.0 + 0.2 * square * square) * pair.gradient_over_r) * pair.offset;
+        sum.concentration += (j.volume * (1.0 + 0.2 * square * square) * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -180,6 +191,11 @@ struct ShiftingExchange
         VectorLanes velocity, shift;
         Lanes balance;
     };
+    struct Far
+    {
+        Real volume, density, liquid, balance;
+        VectorOf<Real> velocity, shift;
+    };
     struct Sum
     {
         Lanes density{}, mass{};
@@ -189,19 +205,23 @@ struct ShiftingExchange
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {volume.lanes(first), density.lanes(first), velocity.lanes(first), shift.lanes(first),
-                balance.lanes(first)};
+        return {lanes(volume, first), lanes(density, first), lanes(velocity, first), lanes(shift, first),
+                lanes(balance, first)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double density_j = density[j], liquid = mobility.weight[j];
-        const Lanes weight = volume[j] * minimum(i.balance, all_lanes(balance[j])) * pair.gradient_over_r;
+        return {real(volume[j]),  real(density[j]),  real(mobility.weight[j]),
+                real(balance[j]), real(velocity[j]), real(shift[j])};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const Lanes weight = j.volume * minimum(i.balance, Lanes(j.balance)) * pair.gradient_over_r;
         const Lanes own = weight * dot(i.shift, pair.offset);
-        const Lanes other = weight * dot(broadcast(shift[j]), pair.offset);
-        const Lanes flux = density_j * other + i.density * own;
+        const Lanes other = weight * dot(broadcast(j.shift), pair.offset);
+        const Lanes flux = j.density * other + i.density * own;
         sum.density += flux - i.density * (other - own);
-        sum.mass += liquid * i.volume * flux;
-        sum.momentum += (i.volume * density_j * other) * (broadcast(velocity[j]) - i.velocity);
+        sum.mass += j.liquid * i.volume * flux;
+        sum.momentum += (i.volume * j.density * other) * (broadcast(j.velocity) - i.velocity);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -215,4 +235,4 @@ struct ShiftingExchange
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -6,7 +6,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Where the liquid's surface is, which way it faces and how it curves, per particle. `colour` is 1 in the primary
@@ -16,7 +16,7 @@ struct SurfaceFields
     ScalarField& colour;
     VectorField& colour_gradient; ///< −∇c, 1/m: points out of the liquid
     ScalarField& smoothed_colour; ///< Σ V W c (free surface), Σ V W c / Σ V W (two phases)
-    ScalarField& companions;      ///< neighbours of any kind within two smoothing lengths, itself included
+    ScalarField& companions;      ///< neighbours of any kind within counting_reach, itself included
     VectorField& normal;          ///< n̂, out of the liquid
     VectorField& smoothed_normal;
     ScalarField& delta;         ///< δ, 1/m: its integral across the surface is one
@@ -67,6 +67,10 @@ struct ColourGradient
     {
         Lanes colour;
     };
+    struct Far
+    {
+        Real colour, volume;
+    };
     struct Sum
     {
         VectorLanes gradient{};
@@ -74,14 +78,14 @@ struct ColourGradient
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {two_phase ? surface.colour.lanes(first) : Lanes{}}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Near near(Index first) const { return {two_phase ? lanes(surface.colour, first) : Lanes{}}; }
+    Far far(Index j) const { return {real(surface.colour[j]), real(volume[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const double colour_j = surface.colour[j], volume_j = volume[j];
-        sum.gradient -= (volume_j * (colour_j - i.colour) * pair.gradient_over_r) * pair.offset;
-        sum.colour += (volume_j * colour_j) * pair.kernel;
-        sum.weight += volume_j * pair.kernel;
-        sum.companions += pair.distance < 2.0 * smoothing_length ? all_lanes(1.0) : Lanes{};
+        sum.gradient -= (j.volume * (j.colour - i.colour) * pair.gradient_over_r) * pair.offset;
+        sum.colour += (j.volume * j.colour) * pair.kernel;
+        sum.weight += j.volume * pair.kernel;
+        sum.companions += select(pair.distance < counting_reach * smoothing_length, 1.0, 0.0);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -197,13 +201,13 @@ struct TangentPlaneCurvature
     }
     Near near(Index first) const
     {
-        const VectorLanes normal = surface.normal.lanes(first);
-        if (dimensions == 2) return {normal, {-normal.z, Lanes{}, normal.x}, {Lanes{}, all_lanes(1.0), Lanes{}}};
+        const VectorLanes normal = lanes(surface.normal, first);
+        if (dimensions == 2) return {normal, {-normal.z, Lanes{}, normal.x}, {Lanes{}, Lanes(1.0), Lanes{}}};
         // Any vector that is not along the normal starts the pair of tangents.
-        const LaneMask along_x = normal.x * normal.x > all_lanes(0.49);
-        const VectorLanes start{along_x ? Lanes{} : all_lanes(1.0), along_x ? all_lanes(1.0) : Lanes{}, Lanes{}};
+        const LaneMask along_x = normal.x * normal.x > 0.49;
+        const VectorLanes start{select(along_x, 0.0, 1.0), select(along_x, 1.0, 0.0), 0.0};
         VectorLanes tangent = cross(normal, start);
-        tangent = (1.0 / square_root(dot(tangent, tangent) + 1e-300)) * tangent;
+        tangent = reciprocal_square_root(dot(tangent, tangent)) * tangent;
         return {normal, tangent, cross(normal, tangent)};
     }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
@@ -285,4 +289,4 @@ struct CurvatureSmoothing
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -4,7 +4,7 @@
 
 #include "models/surface_geometry.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Temperature that surface tension and recoil are evaluated at: the kernel mean over the metal around,
@@ -50,4 +50,4 @@ struct SurfaceTemperature
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

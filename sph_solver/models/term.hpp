@@ -3,8 +3,12 @@
 #include "kernels/pair_loop.hpp"
 #include "particles/particles.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
+
+/// Where neighbours are counted: within 2.12 smoothing lengths. A lattice (h = Δx) has neighbours at 2 and at √5
+/// spacings; a limit in between counts the same 33 (13 in two dimensions) whatever round-off does to their distance.
+inline constexpr double counting_reach = 2.12;
 
 /// 1 for a particle whose momentum is integrated, 0 for one that stands: the weight by which sums over "the liquid"
 /// leave out walls and solids.
@@ -41,4 +45,4 @@ void store_if(VectorField& field, const Cluster& cluster, const VectorLanes& val
             field.set(cluster.first + lane, {values.x[lane], values.y[lane], values.z[lane]});
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

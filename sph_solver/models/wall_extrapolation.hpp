@@ -5,7 +5,7 @@
 
 #include "models/term.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// State of wall and solid particles, extrapolated from the liquid before them (Adami, Hu, Adams 2012, eqs. 23 and 27;
@@ -72,4 +72,4 @@ struct WallExtrapolation
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

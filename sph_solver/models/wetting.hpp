@@ -6,7 +6,7 @@
 #include "models/colour_profile.hpp"
 #include "models/surface_geometry.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 /// Wetting of a flat wall by normals on the wall particles.
@@ -59,7 +59,7 @@ struct WallInterface
             if (stands_for_surface(i)) return false;
         return true;
     }
-    Near near(Index first) const { return {particles.position.lanes(first), wall_normal.lanes(first)}; }
+    Near near(Index first) const { return {lanes(particles.position, first), lanes(wall_normal, first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
     {
         if (mobility.weight[j] == 0.0) return;
@@ -71,11 +71,11 @@ struct WallInterface
         const VectorLanes gradient = broadcast(surface.colour_gradient[j]);
         const VectorLanes along = gradient - dot(gradient, i.wall_normal) * i.wall_normal;
         const Lanes length = square_root(dot(along, along));
-        const LaneMask takes_part = (length > all_lanes(smallest_lateral)) & (height < all_lanes(reach));
-        const Lanes weight = takes_part ? delta_j * pair.kernel : Lanes{};
-        const VectorLanes lateral = (1.0 / (length + 1e-300)) * along;
+        const LaneMask takes_part = (length > Lanes(smallest_lateral)) & (height < Lanes(reach));
+        const Lanes weight = select(takes_part, delta_j * pair.kernel, 0.0);
+        const VectorLanes lateral = (1.0 / (length + 1e-30)) * along;
         const VectorLanes prescribed =
-            all_lanes(std::sin(contact_angle)) * lateral + all_lanes(std::cos(contact_angle)) * i.wall_normal;
+            Lanes(std::sin(contact_angle)) * lateral + Lanes(std::cos(contact_angle)) * i.wall_normal;
         const VectorLanes foot = broadcast(surface.depth[j] * surface.normal[j]) - pair.offset;
         sum.weight += weight;
         sum.depth += weight * dot(foot, prescribed);
@@ -92,4 +92,4 @@ struct WallInterface
     }
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

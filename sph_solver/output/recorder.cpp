@@ -7,7 +7,7 @@
 #include "output/run_log.hpp"
 #include "output/signals.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
 
 namespace
@@ -16,7 +16,6 @@ namespace
 /// Steps after which a run settles: the places where a checkpoint can be, whatever the clock says.
 constexpr std::uint64_t steps_between_settling = 50;
 constexpr std::uint64_t steps_between_guards = 10;
-constexpr double seconds_between_checkpoints = 60.0;
 
 /// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
 /// against a wall at a tenth of the artificial speed of sound is compressed by a fifth for an instant (water hammer).
@@ -88,7 +87,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
 {
     guards_.emplace(simulation_.particles(), guard_limits(simulation_));
     checkpoints_.emplace(folder_.checkpoints(), provenance_,
-                         std::chrono::duration<double>(seconds_between_checkpoints));
+                         std::chrono::duration<double>(options_.seconds_between_checkpoints));
     const auto checkpoint = options_.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
     if (checkpoint)
         resume(*checkpoint);
@@ -135,8 +134,8 @@ void Recorder::resume(const std::filesystem::path& file)
 void Recorder::announce() const
 {
     const Scene& scene = simulation_.scene();
-    log_->info("case {} at level {}: {} particles, spacing {:.4g} m, {} threads", scene.definition.name,
-               scene.definition.level, scene.particles->count(), scene.spacing, options_.threads);
+    log_->info("case {} at level {}: {} particles, spacing {:.4g} m, {} threads, engine {}", scene.definition.name,
+               scene.definition.level, scene.particles->count(), scene.spacing, options_.threads, engine_name);
     if (simulation_.flow()) {
         const FlowParameters& parameters = simulation_.parameters();
         log_->info("greatest expected speed {:.4g} m/s (from {}), sound speed {:.4g} m/s", parameters.reference_speed,
@@ -318,4 +317,4 @@ Ending Recorder::finish()
     return *ending_;
 }
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

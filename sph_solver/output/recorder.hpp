@@ -11,22 +11,13 @@
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/progress.hpp"
+#include "output/recorder_options.hpp"
 #include "output/run_folder.hpp"
 #include "output/run_record.hpp"
 #include "output/vtk_series.hpp"
 
-namespace cupel
+namespace cupel::inline CUPEL_ENGINE
 {
-
-struct RecorderOptions
-{
-    std::filesystem::path folder;
-    bool resume = false;
-    int threads = 1;
-};
-
-/// How a run ended; the value is the program's exit status.
-enum class Ending { completed = 0, stopped = 1, interrupted = 130 };
 
 /// Opens a run's folder, takes up its newest checkpoint where it is to be resumed, and writes snapshots at multiples of
 /// the output interval, rows of history, checkpoints, progress, and at the end the record.
@@ -80,4 +71,4 @@ private:
     std::string diagnosis_;
 };
 
-} // namespace cupel
+} // namespace cupel::inline CUPEL_ENGINE

@@ -40,7 +40,7 @@ template <class T> void permute_vector(std::vector<T>& values, std::span<const I
 
 std::size_t padded(Index count)
 {
-    return static_cast<std::size_t>(count) + lane_count;
+    return static_cast<std::size_t>(count) + readable_beyond_end;
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "math/lanes.hpp"
 #include "math/vector.hpp"
 
 namespace cupel
@@ -50,8 +49,6 @@ struct ScalarField
 
     double operator[](Index i) const { return values[static_cast<std::size_t>(i)]; }
     double& operator[](Index i) { return values[static_cast<std::size_t>(i)]; }
-    Lanes lanes(Index first) const { return load_lanes(values.data() + first); }
-    void store(Index first, int count, const Lanes& a) { store_lanes(values.data() + first, a, count); }
 };
 
 struct VectorField
@@ -71,17 +68,10 @@ struct VectorField
         y[k] = a.y;
         z[k] = a.z;
     }
-    VectorLanes lanes(Index first) const
-    {
-        return {load_lanes(x.data() + first), load_lanes(y.data() + first), load_lanes(z.data() + first)};
-    }
-    void store(Index first, int count, const VectorLanes& a)
-    {
-        store_lanes(x.data() + first, a.x, count);
-        store_lanes(y.data() + first, a.y, count);
-        store_lanes(z.data() + first, a.z, count);
-    }
 };
+
+/// Values that stay readable beyond the end of a field, so that the last cluster can be loaded whole.
+inline constexpr int readable_beyond_end = 16;
 
 /// All particles of a scene as a structure of arrays. Models register the fields that they need; a registered field
 /// is sorted, checkpointed and (on request) written without further code, and references to it stay valid.

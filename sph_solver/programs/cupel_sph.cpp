@@ -1,6 +1,7 @@
 /// cupel_sph: the SPH solver.
 ///
-///   cupel_sph run RESOLVED.json --output FOLDER [--threads N] [--resume]
+///   cupel_sph run RESOLVED.json --output FOLDER [--threads N] [--instructions SET] [--checkpoint-every SECONDS]
+///                 [--resume]
 ///
 /// RESOLVED.json is what `cupel_case resolve` prints. Exit status: 0 completed, 1 stopped by a guard or an output that
 /// cannot be written, 2 refused, 130 interrupted after a checkpoint was left.
@@ -10,8 +11,8 @@
 #include <omp.h>
 
 #include "output/atomic_file.hpp"
-#include "output/recorder.hpp"
 #include "output/signals.hpp"
+#include "programs/engines.hpp"
 
 namespace
 {
@@ -19,15 +20,10 @@ namespace
 constexpr int exit_stopped = 1;
 constexpr int exit_refused = 2;
 
-int run(const std::string& resolved_case, const cupel::RecorderOptions& options)
+int run(const std::string& resolved_case, const std::string& instructions, const cupel::RecorderOptions& options)
 {
-    cupel::Simulation simulation(cupel::place_particles(cupel::read_resolved_case(resolved_case)));
-    cupel::Recorder recorder(simulation, options);
-    while (!recorder.finished()) {
-        simulation.step(recorder.longest_step());
-        recorder.after_step();
-    }
-    return static_cast<int>(recorder.finish());
+    const cupel::Case definition = cupel::read_resolved_case(resolved_case);
+    return static_cast<int>(cupel::choose_engine(definition.numerics.precision, instructions).run(definition, options));
 }
 
 } // namespace
@@ -36,13 +32,17 @@ int main(int argument_count, char** arguments)
 {
     CLI::App program{"The SPH solver of Cupel."};
     program.require_subcommand(1);
-    std::string resolved_case, folder;
+    std::string resolved_case, folder, instructions;
     cupel::RecorderOptions options;
     options.threads = omp_get_max_threads();
     CLI::App* command = program.add_subcommand("run", "run a resolved case");
     command->add_option("case", resolved_case, "the resolved case (JSON)")->required();
     command->add_option("--output", folder, "folder of the result")->required();
     command->add_option("--threads", options.threads, "number of threads")->check(CLI::Range(1, 1024));
+    command->add_option("--checkpoint-every", options.seconds_between_checkpoints, "seconds between checkpoints")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--instructions", instructions, "avx512, avx2 or portable; default: the best of this machine")
+        ->envname("CUPEL_INSTRUCTIONS");
     command->add_flag("--resume", options.resume, "go on from the newest checkpoint in the folder");
     try {
         program.parse(argument_count, arguments);
@@ -54,7 +54,7 @@ int main(int argument_count, char** arguments)
     omp_set_num_threads(options.threads);
     cupel::catch_stop_signals();
     try {
-        return run(resolved_case, options);
+        return run(resolved_case, instructions, options);
     }
     catch (const cupel::CaseError& error) {
         std::fprintf(stderr, "cupel_sph: %s\n", error.what());

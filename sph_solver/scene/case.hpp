@@ -140,6 +140,7 @@ struct TimeSpan
 struct Numerics
 {
     std::string formulation = "default"; ///< "default" or "paper"
+    std::string precision = "double";    ///< of pair arithmetic: "double" or "float"
     double smoothing_ratio = 1.0;        ///< smoothing length / particle spacing
     double artificial_viscosity = 0;
     double artificial_viscosity_beta = 0;

@@ -33,6 +33,8 @@ Table numerics_declaration()
         true,
         {choice("formulation", {"default", "paper"}, "set of SPH remedies: Cupel's own, or the paper's")
              .or_else("default"),
+         choice("precision", {"double", "float"}, "of pair arithmetic; positions and sums over time are double")
+             .or_else("double"),
          quantity("smoothing_ratio", "1", "smoothing length over particle spacing")
              .at_least(0.8)
              .at_most(3)

@@ -39,8 +39,8 @@ struct Probe
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        filling.store(cluster.first, cluster.count, sum.filling);
-        gradient.store(cluster.first, cluster.count, sum.gradient);
+        store_lanes(filling, cluster.first, cluster.count, sum.filling);
+        store_lanes(gradient, cluster.first, cluster.count, sum.gradient);
     }
 };
 

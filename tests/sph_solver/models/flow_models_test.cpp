@@ -2,6 +2,7 @@
 
 #include "models/colour_profile.hpp"
 #include "models/continuity.hpp"
+#include "models/density_diffusion.hpp"
 #include "models/equation_of_state.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
@@ -62,12 +63,11 @@ TEST_P(FlowModels, DensityFollowsThePacking)
 {
     Block block(GetParam());
     Particles& particles = block.particles;
-    VectorField& zero = particles.add_vector({"density_gradient", "kg/m4"});
     ScalarField& rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     const auto velocity = [](const Vector& p) { return Vector{std::sin(p.z), 0.0, std::cos(0.5 * p.x)}; };
     for (Index i = 0; i < particles.count(); ++i)
         particles.velocity.set(i, velocity(particles.position[i]));
-    block.run(Continuity{{block.mobility}, particles.volume, particles.density, particles.velocity, zero, 0.0, rate});
+    block.run(Continuity{{block.mobility}, particles.volume, particles.density, particles.velocity, rate});
     // Σ_j m_j W_ij a moment earlier and later.
     const double moment = 1e-5;
     const auto packing = [&](Index i, double time) {
@@ -81,6 +81,34 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     };
     for (Index i = 0; i < particles.count(); ++i)
         EXPECT_NEAR(rate[i], (packing(i, moment) - packing(i, -moment)) / (2.0 * moment), 1e-7);
+}
+
+TEST_P(FlowModels, DensityDiffusionConservesAndLeavesALinearDensityAlone)
+{
+    Block block(GetParam());
+    Particles& particles = block.particles;
+    VectorField& gradient = particles.add_vector({"density_gradient", "kg/m4"});
+    ScalarField& rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    const Vector slope{0.3, 0.0, -0.2};
+    const auto diffuse = [&](const auto& density) {
+        for (Index i = 0; i < particles.count(); ++i) {
+            particles.density[i] = density(particles.position[i]);
+            gradient.set(i, slope);
+            rate[i] = 0.0;
+        }
+        block.run(DensityDiffusion{{block.mobility}, particles.volume, particles.density, gradient, 0.7, rate});
+    };
+    diffuse([&](const Vector& p) { return 1.0 + dot(slope, p); });
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_NEAR(rate[i], 0.0, 1e-13);
+    diffuse([&](const Vector& p) { return 1.0 + std::sin(p.x) * p.z; });
+    double total = 0.0, size = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        total += particles.volume[i] * rate[i];
+        size += particles.volume[i] * std::abs(rate[i]);
+    }
+    EXPECT_GT(size, 1.0);
+    EXPECT_LT(std::abs(total), 1e-12 * size);
 }
 
 TEST_P(FlowModels, PressureAndViscosityConserveMomentum)
