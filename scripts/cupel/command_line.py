@@ -137,6 +137,19 @@ def bed(context: typer.Context) -> int:
 
 
 @app.command()
+def bench(
+    as_json: bool = typer.Option(False, "--json", help="JSON instead of a table."),
+    quick: bool = typer.Option(False, "--quick", help="Small scenes only: seconds, to see that all works."),
+    everything: bool = typer.Option(False, "--all", help="Up to ten million particles: minutes, several GiB."),
+    repetitions: int = typer.Option(3, min=1, help="Of each benchmark; the median counts."),
+) -> int:
+    """Time the SPH engine: updates a second, memory, and what each model costs."""
+    from . import bench as benchmarks
+
+    return benchmarks.main("quick" if quick else "all" if everything else "default", repetitions, as_json)
+
+
+@app.command()
 def schema(
     of_result: bool = typer.Option(False, "--result", help="The schema of result.json instead of case files."),
 ) -> int:

@@ -1,0 +1,101 @@
+/// The full step of molten metal, in each engine, and the same with one model more or less: a block of liquid 304L with
+/// nothing around it, all of it moving, by the solver's own Simulation.
+#include <cmath>
+#include <stdexcept>
+
+#include "integrators/simulation.hpp"
+#include "step_benchmark.hpp"
+
+namespace cupel::inline CUPEL_ENGINE
+{
+
+namespace
+{
+
+Case molten_block(std::size_t particles, const MeltPoolScene& scene)
+{
+    const double spacing = 1e-5;
+    const double side = spacing * std::round(std::cbrt(static_cast<double>(particles)));
+    Case definition;
+    definition.name = definition.hash = "molten_block";
+    definition.level = "coarse";
+    definition.spacing = spacing;
+    definition.physics = scene.physics;
+    Material metal;
+    metal.name = "304L";
+    metal.density = 6900.0;
+    metal.viscosity = 6e-3;
+    metal.specific_heat = 780.0;
+    metal.specific_heat_solid = 700.0;
+    metal.conductivity = metal.conductivity_solid = 18.0;
+    metal.solidus = 1673.0;
+    metal.liquidus = 1773.0;
+    metal.melting_temperature = 1723.0;
+    metal.latent_heat = 247e3;
+    metal.surface_tension = 1.2;
+    metal.surface_tension_slope = -4.3e-4;
+    metal.surface_tension_reference_temperature = 1723.0;
+    metal.surface_tension_minimum = 0.1;
+    metal.boiling_temperature = 3050.0;
+    metal.vaporization_heat = 6.1e6;
+    metal.molar_mass = 0.0558;
+    metal.emissivity = 0.6;
+    definition.materials.emplace(metal.name, metal);
+    Material argon;
+    argon.name = "argon";
+    argon.density = 1.62;
+    definition.materials.emplace(argon.name, argon);
+    definition.surrounding = Surrounding{"argon", false, 300.0, 101325.0, 0.0};
+    definition.domain.lower = {0.0, 0.0, 0.0};
+    definition.domain.upper = {side, side, side};
+    for (auto& boundary : definition.domain.boundaries)
+        boundary = Boundary{BoundaryKind::open, true, {}};
+    definition.initial = {2000.0, {100.0 / side, 0.0, 0.0}};
+    Body body;
+    body.material = metal.name;
+    body.lower = definition.domain.lower;
+    body.upper = definition.domain.upper;
+    definition.bodies.push_back(body);
+    definition.numerics.precision = sizeof(Real) == 4 ? "float" : "double";
+    definition.numerics.density_diffusion = scene.density_diffusion;
+    definition.numerics.shifting = scene.shifting;
+    definition.numerics.artificial_viscosity = scene.artificial_viscosity;
+    definition.numerics.artificial_stress = scene.artificial_stress;
+    definition.numerics.skin = 0.3;
+    definition.numerics.reference_speed = 2.0;
+    definition.time = {1.0, 1.0};
+    return definition;
+}
+
+class MeltPoolStep : public StepBenchmark
+{
+public:
+    MeltPoolStep(std::size_t particles, const MeltPoolScene& scene)
+        : simulation_(place_particles(molten_block(particles, scene)))
+    {
+        simulation_.start();
+        if (simulation_.neighbourhood().moving_particles().size() != count())
+            throw std::logic_error("the benchmark's metal does not all move");
+    }
+    void step() override { simulation_.step(1.0); }
+    std::size_t count() const override { return static_cast<std::size_t>(simulation_.particles().count()); }
+    std::size_t bytes() const override
+    {
+        return simulation_.particles().bytes() + simulation_.neighbourhood().list().bytes() + pass_memory_bytes();
+    }
+    double neighbours() const override { return 0.0; }
+    std::size_t builds() const override { return simulation_.neighbourhood().list().builds(); }
+    std::vector<double> accelerations() const override { return {}; }
+
+private:
+    Simulation simulation_;
+};
+
+} // namespace
+
+std::unique_ptr<StepBenchmark> make_melt_pool_step(std::size_t particles, const MeltPoolScene& scene)
+{
+    return std::make_unique<MeltPoolStep>(particles, scene);
+}
+
+} // namespace cupel::inline CUPEL_ENGINE

@@ -1,0 +1,26 @@
+"""The benchmarks run and say what they should; how fast they are is not judged here."""
+
+import json
+import subprocess
+
+from cupel import bench
+from cupel.layout import ROOT
+
+
+def test_quick_benchmarks_give_every_key():
+    done = subprocess.run([str(ROOT / "cupel"), "bench", "--quick", "--json", "--repetitions", "1"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    table = json.loads(done.stdout)
+    for key in ("plain_float", "plain_double", "full_step", "naive_plain"):
+        assert table[key]["1e4"] > 0
+    assert table["float_error"]["1e4"] < 1e-5
+    assert table["models"]["flow"]["bytes"] > 0
+    assert {"host", "commit", "command"} <= table.keys()
+
+
+def test_a_model_is_charged_what_it_adds():
+    def row(name, rate, size):
+        return {"name": f"model_double/{name}/100000/1/process_time", "updates_per_core_s": rate, "bytes_per_particle": size}
+
+    models = bench.arrange([row("flow", 1e6, 400.0), row("heat", 5e5, 450.0)])["models"]
+    assert models == {"flow": {"time_ns": 1000.0, "bytes": 400.0}, "heat": {"time_ns": 1000.0, "bytes": 50.0}}
