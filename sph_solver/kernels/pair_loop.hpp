@@ -52,6 +52,8 @@ template <class... Terms> struct Neighbour
 /// Memory that passes share, one after another. Grows to the widest pass and stays.
 std::byte* pass_memory(std::size_t bytes);
 std::size_t pass_memory_bytes();
+/// Gives it back; the next pass takes what it needs.
+void release_pass_memory();
 
 /// Sums over neighbours, several of them in one pass. A term is a struct with
 ///

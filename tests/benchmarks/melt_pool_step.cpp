@@ -73,6 +73,7 @@ public:
     MeltPoolStep(std::size_t particles, const MeltPoolScene& scene)
         : simulation_(place_particles(molten_block(particles, scene)))
     {
+        release_pass_memory();
         simulation_.start();
         if (simulation_.neighbourhood().moving_particles().size() != count())
             throw std::logic_error("the benchmark's metal does not all move");

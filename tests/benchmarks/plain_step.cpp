@@ -30,6 +30,7 @@ public:
           acceleration_(particles_.add_vector({"acceleration", "m/s2"})), kernel_(smoothing_length, 3),
           neighbourhood_(kernel_.support(), skin, 1.0, 3)
     {
+        release_pass_memory();
         const double wave = 2.0 * std::numbers::pi / cells_;
         for (Index i = 0; i < particles_.count(); ++i) {
             const Vector p = particles_.position[i];
