@@ -7,13 +7,13 @@ steps each; `tests/benchmarks/README.md` says what each scene is.
 from __future__ import annotations
 
 import json
-import os
-import platform
 import subprocess
 import sys
 
+from reference_openfoam.run_record import code_commit, host
+
 from .errors import CupelError
-from .layout import ROOT, program
+from .layout import program
 
 #: Counts of particles of each mode: a look (`quick`, seconds), the default, and all (minutes, 10 GiB).
 COUNTS = {"quick": ("10000",), "default": ("100000", "1000000"), "all": ("100000", "1000000", "10000000")}
@@ -33,9 +33,8 @@ def run_benchmarks(mode: str, repetitions: int) -> dict:
         raise CupelError(f"the benchmarks ended with status {done.returncode}: {done.stderr.strip() or 'no message'}")
     report = json.loads(done.stdout)
     table = arrange(report["benchmarks"])
-    table["host"] = {"cpu": cpu_name(), "cores": len(os.sched_getaffinity(0)), "mhz": report["context"]["mhz_per_cpu"],
-                     "instructions": report["context"].get("instructions", "")}
-    table["commit"] = commit()
+    table["host"] = host() | {"mhz": report["context"]["mhz_per_cpu"], "instructions": report["context"]["instructions"]}
+    table["commit"] = code_commit()
     table["command"] = f"./cupel bench --{mode} --repetitions {repetitions}" if mode != "default" else f"./cupel bench --repetitions {repetitions}"
     return table
 
@@ -76,23 +75,6 @@ def arrange(rows: list[dict]) -> dict:
             two = next(row for row in rows if row["name"].startswith(f"{kind}/{rest[0]}/2/"))
             table["thread_scaling"][count] = round(one["real_time"] / two["real_time"], 3)
     return table
-
-
-def cpu_name() -> str:
-    """The processor's name as the kernel gives it."""
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as info:
-            return next(line.split(":", 1)[1].strip() for line in info if line.startswith("model name"))
-    except (OSError, StopIteration):
-        return platform.processor() or "unknown"
-
-
-def commit() -> str:
-    """The commit of the sources, marked where they have changed since."""
-    def git(*words: str) -> str:
-        return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True).stdout.strip()
-
-    return git("rev-parse", "--short=12", "HEAD") + ("+changes" if git("status", "--porcelain", "--untracked-files=no") else "")
 
 
 def print_table(table: dict) -> None:

@@ -78,7 +78,7 @@ void FreeSurfaceFlow::prepare_exchange(const Neighbourhood& neighbourhood)
     std::fill(balance_->values.begin(), balance_->values.end(), 1.0);
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     for (const Index i : neighbourhood.moving_particles())
-        (*balance_)[i] = std::clamp(1.0 - 5.0 * std::abs(particles_.mass[i] / lattice_mass - 1.0), 0.0, 1.0);
+        (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass);
 }
 
 /// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.

@@ -225,9 +225,8 @@ void Simulation::advance_heat(double until)
 bool Simulation::flows(Index i) const
 {
     if ((*liquid_fraction_)[i] < CarmanKozeny::coherent_below) return false;
-    const double full = scene_.dimensions == 2 ? 13.0 : 33.0;
     return mobility_[i] != 0.0 || (*standing_neighbours_)[i] == 0.0 ||
-           (*molten_neighbours_)[i] >= MoltenNeighbours::film_share * full;
+           (*molten_neighbours_)[i] >= MoltenNeighbours::film_share * lattice_companions(scene_.dimensions);
 }
 
 /// Metal that is liquid enough to flow moves (its mush damped); mush that holds together and solid stand where they

@@ -10,12 +10,6 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-/// Neighbours within counting_reach in a full lattice (h = Δx), the particle itself included.
-constexpr double lattice_companions(int dimensions)
-{
-    return dimensions == 2 ? 13.0 : 33.0;
-}
-
 bool has_kind(const Particles& particles, Kind kind)
 {
     return std::find(particles.kind.begin(), particles.kind.end(), kind) != particles.kind.end();

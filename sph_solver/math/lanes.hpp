@@ -180,9 +180,4 @@ template <std::floating_point Number> VectorLanes broadcast(const VectorOf<Numbe
 {
     return {a.x, a.y, a.z};
 }
-template <std::floating_point Number> Symmetric3<Lanes> broadcast(const Symmetric3<Number>& m)
-{
-    return {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
-}
-
 } // namespace cupel::inline CUPEL_ENGINE

@@ -31,9 +31,7 @@ struct ArtificialHeat
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (diffusivity[i] >= 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return diffusivity[i] >= 0.0; });
     }
     Near near(Index first) const
     {

@@ -58,13 +58,6 @@ inline Symmetric3<double> safe_inverse(const Symmetric3<double>& m, int dimensio
             (m.xx * m.yy - m.xy * m.xy) * inverse};
 }
 
-/// A cluster's matrices.
-inline Symmetric3<Lanes> lanes(const CorrectionMatrix& m, Index first)
-{
-    return {lanes(m.xx, first), lanes(m.xy, first), lanes(m.xz, first),
-            lanes(m.yy, first), lanes(m.yz, first), lanes(m.zz, first)};
-}
-
 struct GradientCorrection
 {
     Mobility mobility;

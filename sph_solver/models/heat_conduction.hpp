@@ -43,9 +43,7 @@ struct HeatConduction
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (conductivity[i] > 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return conductivity[i] > 0.0; });
     }
     Near near(Index first) const
     {

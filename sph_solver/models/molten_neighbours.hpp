@@ -30,9 +30,7 @@ struct MoltenNeighbours
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (liquid_fraction[i] >= molten_above) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return liquid_fraction[i] >= molten_above; });
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const

@@ -60,6 +60,12 @@ struct StrainRate
     }
 };
 
+/// b = max(0, 1 − 5 |m/m₀ − 1|): a particle that has lost or gained a fifth of its mass exchanges no more of it.
+inline double exchange_balance(double mass, double lattice_mass)
+{
+    return std::clamp(1.0 - 5.0 * std::abs(mass / lattice_mass - 1.0), 0.0, 1.0);
+}
+
 /// Shifting velocity (Lind et al. 2012, with the pairing correction of Sun et al. 2017), scaled by the local strain:
 ///
 ///   δu_i = −U_i 2h Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   U_i = min(20 s h γ̇_i, 0.1 c₀),   |δu_i| ≤ 0.1 U_i   [m/s]
@@ -110,10 +116,7 @@ struct ShiftingVelocity
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            // A particle that has lost or gained a fifth of its mass exchanges no more of it by its own doing.
-            const double balance = companions[i] < fewest_companions
-                                       ? 0.0
-                                       : std::clamp(1.0 - 5.0 * std::abs(mass[i] / lattice_mass - 1.0), 0.0, 1.0);
+            const double balance = companions[i] < fewest_companions ? 0.0 : exchange_balance(mass[i], lattice_mass);
             const double speed =
                 balance * std::min(20.0 * strength * smoothing_length * strain_rate[i], greatest_speed);
             Vector u = (-2.0 * smoothing_length * speed) *
@@ -170,8 +173,8 @@ struct WallShift
 ///   dρ_i/dt  += Σ_j Φ_ij/V_i − ρ_i Σ_j V_j (δu_j − δu_i)·∇W_ij                              [kg/(m³ s)]
 ///   m_i dv_i/dt += Σ_j V_i V_j ρ_j (δu_j·∇W_ij)(v_j − v_i)                                  [N]
 ///
-/// Each pair's exchange is multiplied by min(b_i, b_j), b = max(0, 1 − 5 |m/m₀ − 1|): no particle gains or loses more
-/// than a fifth of its mass. Φ is antisymmetric, so mass is conserved to round-off between liquid particles; walls
+/// Each pair's exchange is multiplied by min(b_i, b_j) (exchange_balance): no particle gains or loses more than a fifth
+/// of its mass. Φ is antisymmetric, so mass is conserved to round-off between liquid particles; walls
 /// exchange none.
 struct ShiftingExchange
 {

@@ -113,9 +113,7 @@ struct NormalSmoothing
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
@@ -151,9 +149,9 @@ struct SurfaceNeighbourhood
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) {
+            return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0;
+        });
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const
@@ -195,9 +193,8 @@ struct TangentPlaneCurvature
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] >= smallest_delta) return false;
-        return true;
+        return none_in(cluster,
+                       [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] >= smallest_delta; });
     }
     Near near(Index first) const
     {
@@ -267,9 +264,7 @@ struct CurvatureSmoothing
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface.delta[i] > 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const

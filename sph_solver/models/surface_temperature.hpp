@@ -32,9 +32,7 @@ struct SurfaceTemperature
 
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility.weight[i] != 0.0 && surface_delta[i] > 0.0) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface_delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
     void add(const Near&, Index j, const Pair& pair, Sum& sum) const

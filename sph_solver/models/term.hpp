@@ -9,6 +9,19 @@ namespace cupel::inline CUPEL_ENGINE
 /// Where neighbours are counted: within 2.12 smoothing lengths. A lattice (h = Δx) has neighbours at 2 and at √5
 /// spacings; a limit in between counts the same 33 (13 in two dimensions) whatever round-off does to their distance.
 inline constexpr double counting_reach = 2.12;
+/// What is counted so in a full lattice, the particle itself included.
+constexpr double lattice_companions(int dimensions)
+{
+    return dimensions == 2 ? 13.0 : 33.0;
+}
+
+/// Whether no particle of a cluster is one for which concerned(i) holds.
+template <class Concerned> bool none_in(const Cluster& cluster, const Concerned& concerned)
+{
+    for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+        if (concerned(i)) return false;
+    return true;
+}
 
 /// 1 for a particle whose momentum is integrated, 0 for one that stands: the weight by which sums over "the liquid"
 /// leave out walls and solids.
@@ -18,15 +31,11 @@ struct Mobility
 
     bool none_in(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (weight[i] != 0.0) return false;
-        return true;
+        return cupel::none_in(cluster, [&](Index i) { return weight[i] != 0.0; });
     }
     bool all_in(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (weight[i] == 0.0) return false;
-        return true;
+        return cupel::none_in(cluster, [&](Index i) { return weight[i] == 0.0; });
     }
 };
 

@@ -55,9 +55,7 @@ struct WallInterface
     }
     bool idle(const Cluster& cluster) const
     {
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (stands_for_surface(i)) return false;
-        return true;
+        return none_in(cluster, [&](Index i) { return stands_for_surface(i); });
     }
     Near near(Index first) const { return {lanes(particles.position, first), lanes(wall_normal, first)}; }
     void add(const Near& i, Index j, const Pair& pair, Sum& sum) const

@@ -5,37 +5,20 @@
 namespace cupel
 {
 
-#define CUPEL_DECLARE_ENGINE(name)                                                                                     \
+#define CUPEL_DECLARE_ENGINE(instructions, precision, name)                                                            \
     namespace name                                                                                                     \
     {                                                                                                                  \
     Ending run_case(const Case&, const RecorderOptions&);                                                              \
     }
-CUPEL_DECLARE_ENGINE(portable_double)
-CUPEL_DECLARE_ENGINE(portable_float)
-#if defined(CUPEL_HAS_X86_ENGINES)
-CUPEL_DECLARE_ENGINE(avx2_double)
-CUPEL_DECLARE_ENGINE(avx2_float)
-CUPEL_DECLARE_ENGINE(avx512_double)
-CUPEL_DECLARE_ENGINE(avx512_float)
-#endif
+CUPEL_FOR_EACH_ENGINE(CUPEL_DECLARE_ENGINE)
 
 namespace
 {
 
-/// The fastest first.
 const std::vector<Engine>& engines()
 {
-    static const std::vector<Engine> all
-    {
-#if defined(CUPEL_HAS_X86_ENGINES)
-        {"avx512", "double", avx512_double::run_case}, {"avx512", "float", avx512_float::run_case},
-            {"avx2", "double", avx2_double::run_case}, {"avx2", "float", avx2_float::run_case},
-#endif
-            {"portable", "double", portable_double::run_case},
-        {
-            "portable", "float", portable_float::run_case
-        }
-    };
+#define CUPEL_ENGINE_ENTRY(instructions, precision, name) {#instructions, #precision, name::run_case},
+    static const std::vector<Engine> all{CUPEL_FOR_EACH_ENGINE(CUPEL_ENGINE_ENTRY)};
     return all;
 }
 

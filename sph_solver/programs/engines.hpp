@@ -6,6 +6,15 @@
 #include "output/recorder_options.hpp"
 #include "scene/case.hpp"
 
+/// Calls use(instructions, precision, namespace) for each engine that is compiled, the fastest first.
+#if defined(CUPEL_HAS_X86_ENGINES)
+#define CUPEL_FOR_EACH_ENGINE(use)                                                                                     \
+    use(avx512, double, avx512_double) use(avx512, float, avx512_float) use(avx2, double, avx2_double)                 \
+        use(avx2, float, avx2_float) use(portable, double, portable_double) use(portable, float, portable_float)
+#else
+#define CUPEL_FOR_EACH_ENGINE(use) use(portable, double, portable_double) use(portable, float, portable_float)
+#endif
+
 namespace cupel
 {
 

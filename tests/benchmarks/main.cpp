@@ -2,6 +2,7 @@
 /// kind/precision/particles/threads.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,42 +16,32 @@
 namespace cupel
 {
 
-#define CUPEL_DECLARE_BENCHMARKS(name)                                                                                 \
+#define CUPEL_DECLARE_BENCHMARKS(instructions, precision, name)                                                        \
     namespace name                                                                                                     \
     {                                                                                                                  \
     std::unique_ptr<StepBenchmark> make_plain_step(std::size_t);                                                       \
     std::unique_ptr<StepBenchmark> make_melt_pool_step(std::size_t, const MeltPoolScene&);                             \
     }
-CUPEL_DECLARE_BENCHMARKS(portable_double)
-CUPEL_DECLARE_BENCHMARKS(portable_float)
-#if defined(CUPEL_HAS_X86_ENGINES)
-CUPEL_DECLARE_BENCHMARKS(avx2_double)
-CUPEL_DECLARE_BENCHMARKS(avx2_float)
-CUPEL_DECLARE_BENCHMARKS(avx512_double)
-CUPEL_DECLARE_BENCHMARKS(avx512_float)
-#endif
+CUPEL_FOR_EACH_ENGINE(CUPEL_DECLARE_BENCHMARKS)
 
 namespace
 {
 
 struct Makers
 {
+    std::string instructions, precision;
     MakePlainStep plain;
     MakeMeltPoolStep melt_pool;
 };
 
-Makers makers(const std::string& instructions, bool single)
+Makers makers(const std::string& instructions, const std::string& precision)
 {
-#if defined(CUPEL_HAS_X86_ENGINES)
-    if (instructions == "avx512")
-        return single ? Makers{avx512_float::make_plain_step, avx512_float::make_melt_pool_step}
-                      : Makers{avx512_double::make_plain_step, avx512_double::make_melt_pool_step};
-    if (instructions == "avx2")
-        return single ? Makers{avx2_float::make_plain_step, avx2_float::make_melt_pool_step}
-                      : Makers{avx2_double::make_plain_step, avx2_double::make_melt_pool_step};
-#endif
-    return single ? Makers{portable_float::make_plain_step, portable_float::make_melt_pool_step}
-                  : Makers{portable_double::make_plain_step, portable_double::make_melt_pool_step};
+#define CUPEL_MAKERS_ENTRY(instructions, precision, name)                                                              \
+    {#instructions, #precision, name::make_plain_step, name::make_melt_pool_step},
+    static const std::vector<Makers> all{CUPEL_FOR_EACH_ENGINE(CUPEL_MAKERS_ENTRY)};
+    return *std::find_if(all.begin(), all.end(), [&](const Makers& one) {
+        return one.instructions == instructions && one.precision == precision;
+    });
 }
 
 /// Steps enough for several rebuilds of the list, so that the rate includes them.
@@ -92,8 +83,8 @@ void float_error(benchmark::State& state, std::size_t particles, const std::stri
 {
     double difference = 0.0, size = 0.0;
     for (auto _ : state) {
-        const auto a = makers(instructions, false).plain(particles)->accelerations();
-        const auto b = makers(instructions, true).plain(particles)->accelerations();
+        const auto a = makers(instructions, "double").plain(particles)->accelerations();
+        const auto b = makers(instructions, "float").plain(particles)->accelerations();
         difference = size = 0.0;
         for (std::size_t i = 0; i < a.size(); ++i) {
             difference += (a[i] - b[i]) * (a[i] - b[i]);
@@ -144,9 +135,8 @@ MeltPoolScene full_scene()
 void add_all(const std::string& instructions)
 {
     const int cores = omp_get_max_threads();
-    for (const bool single : {false, true}) {
-        const Makers make = makers(instructions, single);
-        const std::string precision = single ? "float" : "double";
+    for (const std::string precision : {"double", "float"}) {
+        const Makers make = makers(instructions, precision);
         for (const std::size_t n : {10'000, 100'000, 1'000'000, 10'000'000}) {
             add("plain_" + precision, n, 1, [=] { return make.plain(n); });
             if (cores > 1 && n >= 100'000) add("plain_" + precision, n, 2, [=] { return make.plain(n); });

@@ -5,6 +5,7 @@
 
 #include "integrators/simulation.hpp"
 #include "step_benchmark.hpp"
+#include "thermal/thermal_scene.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -21,25 +22,13 @@ Case molten_block(std::size_t particles, const MeltPoolScene& scene)
     definition.level = "coarse";
     definition.spacing = spacing;
     definition.physics = scene.physics;
-    Material metal;
-    metal.name = "304L";
-    metal.density = 6900.0;
+    Material metal = thermal_tests::steel();
     metal.viscosity = 6e-3;
-    metal.specific_heat = 780.0;
-    metal.specific_heat_solid = 700.0;
-    metal.conductivity = metal.conductivity_solid = 18.0;
-    metal.solidus = 1673.0;
-    metal.liquidus = 1773.0;
     metal.melting_temperature = 1723.0;
-    metal.latent_heat = 247e3;
     metal.surface_tension = 1.2;
     metal.surface_tension_slope = -4.3e-4;
     metal.surface_tension_reference_temperature = 1723.0;
     metal.surface_tension_minimum = 0.1;
-    metal.boiling_temperature = 3050.0;
-    metal.vaporization_heat = 6.1e6;
-    metal.molar_mass = 0.0558;
-    metal.emissivity = 0.6;
     definition.materials.emplace(metal.name, metal);
     Material argon;
     argon.name = "argon";
