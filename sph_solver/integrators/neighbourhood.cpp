@@ -1,6 +1,5 @@
 #include "integrators/neighbourhood.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace cupel::inline CUPEL_ENGINE
@@ -10,11 +9,15 @@ Neighbourhood::Neighbourhood(double support, double skin, double spacing, int di
     : list_(support, skin, spacing, dimensions)
 {}
 
-bool Neighbourhood::update(Particles& particles, const ScalarField& mobility)
+void Neighbourhood::update(Particles& particles, const ScalarField& mobility)
 {
-    if (!list_.outdated(particles, moving_particles_)) return false;
-    rebuild(particles, mobility);
-    return true;
+    if (!list_.outdated(particles, moving_particles_)) return;
+    if (!list_.refresh(particles, wandered_)) {
+        rebuild(particles, mobility);
+        return;
+    }
+    forget_wanderers();
+    classify(particles, mobility);
 }
 
 void Neighbourhood::rebuild(Particles& particles, const ScalarField& mobility)
@@ -22,35 +25,40 @@ void Neighbourhood::rebuild(Particles& particles, const ScalarField& mobility)
     list_.build(particles);
     all_.resize(static_cast<std::size_t>(list_.cluster_count()));
     std::iota(all_.begin(), all_.end(), Index{0});
+    forget_wanderers();
     classify(particles, mobility);
+}
+
+void Neighbourhood::forget_wanderers()
+{
+    wandered_.clear();
+    has_wandered_.assign(all_.size(), 0);
 }
 
 void Neighbourhood::classify(const Particles& particles, const ScalarField& mobility)
 {
     moving_particles_.clear();
+    std::vector<unsigned char> moves(all_.size(), 0), touched(all_.size(), 0);
     for (Index i = 0; i < particles.count(); ++i)
-        if (mobility[i] != 0.0) moving_particles_.push_back(i);
-
-    std::vector<unsigned char> moves(all_.size()), stands(all_.size());
-    const auto count = static_cast<Index>(all_.size());
-#pragma omp parallel for schedule(dynamic, 256)
-    for (Index c = 0; c < count; ++c) {
-        const Cluster cluster = list_.cluster(c);
-        bool some_moves = false, some_stands = false;
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            (mobility[i] != 0.0 ? some_moves : some_stands) = true;
-        const auto near = list_.neighbours(c);
-        const bool touched = some_stands && (some_moves || std::any_of(near.begin(), near.end(),
-                                                                       [&](Index j) { return mobility[j] != 0.0; }));
-        moves[static_cast<std::size_t>(c)] = some_moves;
-        stands[static_cast<std::size_t>(c)] = touched;
-    }
+        if (mobility[i] != 0.0) {
+            moving_particles_.push_back(i);
+            moves[static_cast<std::size_t>(list_.cluster_of(i))] = 1;
+        }
     moving_.clear();
-    standing_.clear();
-    for (Index c = 0; c < count; ++c) {
+    for (const Index c : all_)
         if (moves[static_cast<std::size_t>(c)]) moving_.push_back(c);
-        if (stands[static_cast<std::size_t>(c)]) standing_.push_back(c);
+
+    // What is near is near from either side: what stands beside something that moves is in its list.
+    for (const Index c : moving_) {
+        for (const Index j : list_.neighbours(c))
+            if (mobility[j] == 0.0) touched[static_cast<std::size_t>(list_.cluster_of(j))] = 1;
+        auto& wandered = has_wandered_[static_cast<std::size_t>(c)];
+        if (!wandered) wandered_.push_back(c);
+        wandered = 1;
     }
+    standing_.clear();
+    for (const Index c : all_)
+        if (touched[static_cast<std::size_t>(c)]) standing_.push_back(c);
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

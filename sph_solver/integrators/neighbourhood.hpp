@@ -14,8 +14,9 @@ class Neighbourhood
 public:
     Neighbourhood(double support, double skin, double spacing, int dimensions);
 
-    /// Rebuilds the list where a particle has moved too far. Returns whether it did.
-    bool update(Particles& particles, const ScalarField& mobility);
+    /// Lists anew where a particle has moved too far: what moves and what it is near, or, where that is much,
+    /// everything.
+    void update(Particles& particles, const ScalarField& mobility);
     void rebuild(Particles& particles, const ScalarField& mobility);
     /// After particles melted or solidified: which clusters have work.
     void classify(const Particles& particles, const ScalarField& mobility);
@@ -28,8 +29,12 @@ public:
     const std::vector<Index>& moving_particles() const { return moving_particles_; }
 
 private:
+    void forget_wanderers();
+
     NeighbourList list_;
     std::vector<Index> all_, moving_, standing_, moving_particles_;
+    std::vector<Index> wandered_; ///< clusters in which something has moved since it was listed
+    std::vector<unsigned char> has_wandered_;
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

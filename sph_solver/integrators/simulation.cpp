@@ -79,7 +79,13 @@ void Simulation::start()
 void Simulation::settle()
 {
     neighbourhood_.rebuild(*scene_.particles, mobility_);
-    if (heat_) heat_->forget_geometry();
+    updates_when_settled_ = updates_;
+}
+
+bool Simulation::due_to_settle() const
+{
+    constexpr std::uint64_t updates_between = 50;
+    return updates_ - updates_when_settled_ >= updates_between * static_cast<std::uint64_t>(scene_.particles->count());
 }
 
 void Simulation::set_frozen_temperature()
@@ -208,6 +214,9 @@ void Simulation::advance_flow(double time_step)
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);
     kick(0.5 * time_step);
+    if (heat_)
+        for (const Index i : neighbourhood_.moving_particles())
+            heat_->mark_moved(i);
     retire_escaped();
     updates_ += neighbourhood_.moving_particles().size();
 }
@@ -253,6 +262,7 @@ void Simulation::melt_and_solidify()
         particles.pressure[i] = 0.0;
         particles.volume[i] = particles.mass[i] / rest_density;
         flow_->reset(i);
+        heat_->mark_moved(i);
     }
     if (changed) neighbourhood_.classify(particles, mobility_);
 }

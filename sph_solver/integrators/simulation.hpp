@@ -30,10 +30,12 @@ public:
     /// to the same time as the flow.
     double step(double longest);
 
-    /// Puts the particles into the order that their positions alone give and drops what is only remembered, so that a
-    /// run which goes on from here and one that starts from a checkpoint of this state are the same bit for bit.
-    /// To be called at fixed steps, not by the clock on the wall.
+    /// Puts the particles into the order that their positions alone give, and all lists with them, so that a run which
+    /// goes on from here and one that starts from a checkpoint of this state are the same bit for bit. To be called
+    /// when it is due, not by the clock on the wall.
     void settle();
+    /// After 50 updates of as many particles as there are: what settling costs is a per cent or two, however many move.
+    bool due_to_settle() const;
 
     /// Named numbers beside the particles' fields, for a checkpoint; after load() call settle().
     void save(std::map<std::string, double>& numbers) const;
@@ -88,7 +90,7 @@ private:
     Vector lower_{}, upper_{};           ///< beyond these a particle has left, m
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
     std::string last_binding_;
-    std::uint64_t steps_ = 0, updates_ = 0;
+    std::uint64_t steps_ = 0, updates_ = 0, updates_when_settled_ = 0;
     std::map<std::string, std::uint64_t> binding_;
 };
 

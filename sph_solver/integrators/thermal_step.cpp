@@ -55,7 +55,7 @@ ThermalStep::ThermalStep(Scene& scene)
       peak_temperature_(particles_.add_scalar({"peak_temperature", "K", Output::yes})),
       conductivity_(particles_.add_scalar({"thermal_conductivity", "W/(m K)"})),
       correction_(particles_.add_scalar({"conduction_correction", "1"}, 1.0)),
-      power_(particles_.add_scalar({"heating_power", "W"}))
+      power_(particles_.add_scalar({"heating_power", "W"})), moved_(particles_.add_scalar({"moved", "1"}))
 {
     const Case& definition = scene.definition;
     if (definition.requires_physics("melting"))
@@ -168,7 +168,8 @@ void ThermalStep::advance(const NeighbourList& list, double time, double time_st
     apply(time_step);
 }
 
-/// Clusters in whose neighbourhood something moves: elsewhere the sums that depend on places only are still true.
+/// Clusters near which something has moved: elsewhere the sums that depend on places only are still true. What is
+/// neighbour to a cluster that moves is in its list.
 void ThermalStep::find_stale_clusters(const NeighbourList& list)
 {
     all_clusters_.resize(static_cast<std::size_t>(list.cluster_count()));
@@ -179,19 +180,19 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
         geometry_known_ = true;
         return;
     }
-    const auto moves = [&](Index i) {
-        const auto k = static_cast<std::size_t>(i);
-        const VectorField& velocity = particles_.velocity;
-        return velocity.x[k] != 0.0 || velocity.y[k] != 0.0 || velocity.z[k] != 0.0;
-    };
     std::vector<unsigned char> stale(all_clusters_.size(), 0);
-#pragma omp parallel for schedule(dynamic, 256)
-    for (std::size_t c = 0; c < stale.size(); ++c) {
-        const auto near = list.neighbours(static_cast<Index>(c));
-        stale[c] = std::any_of(near.begin(), near.end(), moves);
+    for (const Index c : all_clusters_) {
+        const Cluster& cluster = list.cluster(c);
+        bool moved = false;
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            moved = moved || moved_[i] != 0.0;
+        if (!moved) continue;
+        for (const Index j : list.neighbours(c))
+            stale[static_cast<std::size_t>(list.cluster_of(j))] = 1;
     }
-    for (std::size_t c = 0; c < stale.size(); ++c)
-        if (stale[c]) stale_clusters_.push_back(static_cast<Index>(c));
+    for (const Index c : all_clusters_)
+        if (stale[static_cast<std::size_t>(c)]) stale_clusters_.push_back(c);
+    std::fill(moved_.values.begin(), moved_.values.end(), 0.0);
 }
 
 void ThermalStep::update_geometry(const NeighbourList& list)

@@ -56,13 +56,13 @@ public:
     double stable_time_step() const { return stable_time_step_; }
 
     /// One step of all particles, from `time` to `time + time_step` (s): explicit, but for the surface's losses, each
-    /// particle's being implicit. `list` is valid for the particles as they are. Particles that have moved since the
-    /// last step are those whose velocity is not zero.
+    /// particle's being implicit. `list` is valid for the particles as they are; those that have moved since the last
+    /// step have been marked.
     void advance(const NeighbourList& list, double time, double time_step);
 
     const HeatBooks& books() const { return books_; }
-    /// Drops the sums that particles at rest keep from earlier steps, so that the next step makes all of them anew.
-    void forget_geometry() { geometry_known_ = false; }
+    /// To be told of each particle whose place or volume has changed: elsewhere, sums over places are kept.
+    void mark_moved(Index i) { moved_[i] = 1.0; }
 
     /// Σ m h of all particles now, J.
     double stored_energy() const;
@@ -121,6 +121,7 @@ private:
     ScalarField& conductivity_;              ///< 0 for walls, which take no part
     ScalarField& correction_;
     ScalarField& power_;
+    ScalarField& moved_;                  ///< 1 where place or volume have changed since sums over places were taken
     ScalarField* metal_ = nullptr;        ///< only with a laser or losses
     ScalarField* exposed_area_ = nullptr; ///< only with losses
     std::optional<ArtificialHeatFields> artificial_heat_;

@@ -17,6 +17,10 @@ namespace
 /// Clusters whose lists share one array: enough of them to spread over any number of threads.
 constexpr Index clusters_per_chunk = 256;
 
+/// A refresh pays while it concerns less than this share of the clusters, and while the lists of what moves, whose
+/// clusters spread, have not grown by more than this factor since the build. Both found by timing, neither is sharp.
+constexpr double greatest_share = 0.4, greatest_growth = 1.3;
+
 /// Consecutive coordinates, measured from `middle`: differences are taken in double, so that float loses nothing.
 Lanes lanes_from(const Array& coordinate, Index first, double middle)
 {
@@ -33,6 +37,15 @@ Lanes outside(const Lanes& coordinate, double half)
     return maximum(maximum(coordinate - half, -coordinate - half), 0.0);
 }
 
+Vector least(const Vector& a, const Vector& b)
+{
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+Vector most(const Vector& a, const Vector& b)
+{
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
 } // namespace
 
 NeighbourList::NeighbourList(double support, double skin, double spacing, int dimensions)
@@ -42,11 +55,13 @@ NeighbourList::NeighbourList(double support, double skin, double spacing, int di
 
 Index NeighbourList::column_x(double x) const
 {
-    return std::clamp(static_cast<Index>(std::floor((x - lower_.x) / column_width_)), Index{0}, columns_x_ - 1);
+    return static_cast<Index>(
+        std::clamp(std::floor((x - origin_.x) / column_width_), 0.0, static_cast<double>(columns_x_ - 1)));
 }
 Index NeighbourList::column_y(double y) const
 {
-    return std::clamp(static_cast<Index>(std::floor((y - lower_.y) / column_width_)), Index{0}, columns_y_ - 1);
+    return static_cast<Index>(
+        std::clamp(std::floor((y - origin_.y) / column_width_), 0.0, static_cast<double>(columns_y_ - 1)));
 }
 
 void NeighbourList::build(Particles& particles)
@@ -68,9 +83,10 @@ void NeighbourList::sort_into_columns(Particles& particles)
     lower_ = {infinity, infinity, infinity};
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        lower_ = {std::min(lower_.x, p.x), std::min(lower_.y, p.y), std::min(lower_.z, p.z)};
-        upper_ = {std::max(upper_.x, p.x), std::max(upper_.y, p.y), std::max(upper_.z, p.z)};
+        lower_ = least(lower_, p);
+        upper_ = most(upper_, p);
     }
+    origin_ = lower_;
     const double columns_x = std::floor((upper_.x - lower_.x) / column_width_) + 1.0;
     const double columns_y = std::floor((upper_.y - lower_.y) / column_width_) + 1.0;
     if (!(columns_x * columns_y < 1e8))
@@ -102,14 +118,39 @@ void NeighbourList::sort_into_columns(Particles& particles)
                                   particles.identity[static_cast<std::size_t>(b)];
         });
     particles.permute(order);
+    cut_clusters(begin);
+}
 
+void NeighbourList::cut_clusters(const std::vector<Index>& first_of_column)
+{
+    const std::size_t columns = first_of_column.size() - 1;
     clusters_.clear();
     first_cluster_of_column_.assign(columns + 1, 0);
+    cluster_of_.resize(static_cast<std::size_t>(first_of_column.back()));
     for (std::size_t column = 0; column < columns; ++column) {
-        for (Index first = begin[column]; first < begin[column + 1]; first += lane_count)
-            clusters_.push_back({first, std::min<Index>(lane_count, begin[column + 1] - first)});
+        for (Index first = first_of_column[column]; first < first_of_column[column + 1]; first += lane_count) {
+            const Index count = std::min<Index>(lane_count, first_of_column[column + 1] - first);
+            std::fill_n(cluster_of_.begin() + first, count, static_cast<Index>(clusters_.size()));
+            clusters_.push_back({first, count});
+        }
         first_cluster_of_column_[column + 1] = static_cast<Index>(clusters_.size());
     }
+    is_loose_.assign(clusters_.size(), 0);
+    loose_.clear();
+    first_loose_of_column_.assign(columns + 1, 0);
+    loose_of_column_.clear();
+    own_lists_.assign(clusters_.size(), {});
+}
+
+NeighbourList::Box NeighbourList::box_of(const Particles& particles, Index c) const
+{
+    const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
+    Box box{particles.position[cluster.first], particles.position[cluster.first]};
+    for (Index i = cluster.first + 1; i < cluster.first + cluster.count; ++i) {
+        const Vector p = particles.position[i];
+        box = {least(box.lower, p), most(box.upper, p)};
+    }
+    return box;
 }
 
 void NeighbourList::find_neighbours(const Particles& particles)
@@ -123,16 +164,8 @@ void NeighbourList::find_neighbours(const Particles& particles)
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-        for (Index c = 0; c < count; ++c) {
-            const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
-            Box box{particles.position[cluster.first], particles.position[cluster.first]};
-            for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
-                const Vector p = particles.position[i];
-                box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y), std::min(box.lower.z, p.z)};
-                box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y), std::max(box.upper.z, p.z)};
-            }
-            boxes_[static_cast<std::size_t>(c)] = box;
-        }
+        for (Index c = 0; c < count; ++c)
+            boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
         std::vector<Index> candidates;
 #pragma omp for schedule(dynamic)
         for (Index chunk = 0; chunk < chunk_count; ++chunk) {
@@ -148,8 +181,43 @@ void NeighbourList::find_neighbours(const Particles& particles)
     }
 }
 
-/// Two sieves: a whole cluster of candidates at once against the box of this one, then each that is left against its
-/// particles, which leaves out the corners of the box.
+/// Clusters whose boxes come within reach of this box, in an order that depends on nothing but columns and boxes.
+template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box, const Visit& visit) const
+{
+    const double reach = support_ + skin_;
+    const double reach_squared = reach * reach * (1.0 + 1e-12);
+    const Index x0 = column_x(box.lower.x - reach), x1 = column_x(box.upper.x + reach);
+    const Index y0 = column_y(box.lower.y - reach), y1 = column_y(box.upper.y + reach);
+    const auto near = [&](const Box& other) {
+        const double x = std::max({0.0, box.lower.x - other.upper.x, other.lower.x - box.upper.x});
+        const double y = std::max({0.0, box.lower.y - other.upper.y, other.lower.y - box.upper.y});
+        const double z = std::max({0.0, box.lower.z - other.upper.z, other.lower.z - box.upper.z});
+        return x * x + y * y + z * z < reach_squared;
+    };
+    for (Index cy = y0; cy <= y1; ++cy)
+        for (Index cx = x0; cx <= x1; ++cx) {
+            const auto column =
+                static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
+            for (Index d = first_cluster_of_column_[column]; d < first_cluster_of_column_[column + 1]; ++d) {
+                if (is_loose_[static_cast<std::size_t>(d)]) continue;
+                const Box& other = boxes_[static_cast<std::size_t>(d)];
+                if (other.upper.z < box.lower.z - reach) continue;
+                if (other.lower.z > box.upper.z + reach) break;
+                if (near(other)) visit(d);
+            }
+            for (Index k = first_loose_of_column_[column]; k < first_loose_of_column_[column + 1]; ++k) {
+                const Index d = loose_of_column_[static_cast<std::size_t>(k)];
+                const Box& other = boxes_[static_cast<std::size_t>(d)];
+                // It may reach into several of the columns looked at: the first of them counts.
+                if (cx == std::max(x0, column_x(other.lower.x)) && cy == std::max(y0, column_y(other.lower.y)) &&
+                    near(other))
+                    visit(d);
+            }
+        }
+}
+
+/// Three sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against
+/// that box, then each that is left against its particles, which leaves out the corners of the box.
 void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
                                  std::vector<Index>& found) const
 {
@@ -163,23 +231,15 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
     const double reach_squared = reach * reach * (1.0 + margin);
 
     candidates.clear();
-    for (Index cy = column_y(box.lower.y - reach); cy <= column_y(box.upper.y + reach); ++cy)
-        for (Index cx = column_x(box.lower.x - reach); cx <= column_x(box.upper.x + reach); ++cx) {
-            const auto column =
-                static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
-            for (Index d = first_cluster_of_column_[column]; d < first_cluster_of_column_[column + 1]; ++d) {
-                const Box& other = boxes_[static_cast<std::size_t>(d)];
-                if (other.upper.z < box.lower.z - reach) continue;
-                if (other.lower.z > box.upper.z + reach) break;
-                const Cluster& near = clusters_[static_cast<std::size_t>(d)];
-                const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
-                                         outside(lanes_from(position.y, near.first, middle.y), half.y),
-                                         outside(lanes_from(position.z, near.first, middle.z), half.z)};
-                unsigned within = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u);
-                for (; within != 0; within &= within - 1)
-                    candidates.push_back(near.first + std::countr_zero(within));
-            }
-        }
+    for_each_cluster_near(box, [&](Index d) {
+        const Cluster& near = clusters_[static_cast<std::size_t>(d)];
+        const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
+                                 outside(lanes_from(position.y, near.first, middle.y), half.y),
+                                 outside(lanes_from(position.z, near.first, middle.z), half.z)};
+        unsigned within = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u);
+        for (; within != 0; within &= within - 1)
+            candidates.push_back(near.first + std::countr_zero(within));
+    });
 
     VectorLanes here{lanes_from(position.x, cluster.first, middle.x), lanes_from(position.y, cluster.first, middle.y),
                      lanes_from(position.z, cluster.first, middle.z)};
@@ -217,11 +277,99 @@ bool NeighbourList::outdated(const Particles& particles, std::span<const Index> 
     return moved;
 }
 
+/// Every loose cluster into each column that its box reaches into.
+void NeighbourList::spread_loose_over_columns()
+{
+    const auto for_each_column = [&](Index d, const auto& visit) {
+        const Box& box = boxes_[static_cast<std::size_t>(d)];
+        for (Index cy = column_y(box.lower.y); cy <= column_y(box.upper.y); ++cy)
+            for (Index cx = column_x(box.lower.x); cx <= column_x(box.upper.x); ++cx)
+                visit(static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) +
+                      static_cast<std::size_t>(cx));
+    };
+    std::vector<Index>& first = first_loose_of_column_;
+    std::fill(first.begin(), first.end(), 0);
+    for (const Index d : loose_)
+        for_each_column(d, [&](std::size_t column) { ++first[column + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    loose_of_column_.resize(static_cast<std::size_t>(first.back()));
+    std::vector<Index> next(first.begin(), first.end() - 1);
+    for (const Index d : loose_)
+        for_each_column(d, [&](std::size_t column) { loose_of_column_[static_cast<std::size_t>(next[column]++)] = d; });
+}
+
+std::vector<Index> NeighbourList::clusters_near(std::span<const Index> moved) const
+{
+    std::vector<unsigned char> near(clusters_.size(), 0);
+    for (const Index c : moved)
+        for_each_cluster_near(boxes_[static_cast<std::size_t>(c)],
+                              [&](Index d) { near[static_cast<std::size_t>(d)] = 1; });
+    std::vector<Index> found;
+    for (std::size_t c = 0; c < near.size(); ++c)
+        if (near[c]) found.push_back(static_cast<Index>(c));
+    return found;
+}
+
+/// Why this is enough: a list that stays as it was belongs to a cluster that has not moved and to which nothing that
+/// has moved has come near; what has gone away from it may still be listed, and counts for nothing beyond the support.
+/// From here on the places of `moved` are where they are now: no two particles come nearer than by the skin before one
+/// of them has moved by half of it.
+bool NeighbourList::refresh(const Particles& particles, std::span<const Index> moved)
+{
+    const auto most_clusters = static_cast<std::size_t>(greatest_share * static_cast<double>(clusters_.size()));
+    if (moved.size() > most_clusters) return false;
+    for (const Index c : moved) {
+        const Box& box = boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
+        if (!std::isfinite(dot(box.upper - box.lower, box.upper - box.lower))) return false;
+        lower_ = least(lower_, box.lower);
+        upper_ = most(upper_, box.upper);
+        if (!is_loose_[static_cast<std::size_t>(c)]) loose_.push_back(c);
+        is_loose_[static_cast<std::size_t>(c)] = 1;
+    }
+    std::sort(loose_.begin(), loose_.end());
+    spread_loose_over_columns();
+    const std::vector<Index> concerned = clusters_near(moved);
+    if (concerned.size() > most_clusters) return false;
+
+#pragma omp parallel
+    {
+        std::vector<Index> candidates;
+#pragma omp for schedule(dynamic, 8)
+        for (std::size_t k = 0; k < concerned.size(); ++k) {
+            const auto c = static_cast<std::size_t>(concerned[k]);
+            own_lists_[c].clear();
+            list_cluster(particles, concerned[k], candidates, own_lists_[c]);
+        }
+    }
+    double built = 0.0, now = 0.0;
+    for (const Index c : moved) {
+        built += static_cast<double>(ranges_[static_cast<std::size_t>(c)].count);
+        now += static_cast<double>(own_lists_[static_cast<std::size_t>(c)].size());
+    }
+    if (now > greatest_growth * built) return false;
+
+    for (const Index c : concerned)
+        ranges_[static_cast<std::size_t>(c)].chunk = own_list;
+    for (const Index c : moved) {
+        const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
+        for (auto k = static_cast<std::size_t>(cluster.first);
+             k < static_cast<std::size_t>(cluster.first + cluster.count); ++k) {
+            built_x_[k] = particles.position.x[k];
+            built_y_[k] = particles.position.y[k];
+            built_z_[k] = particles.position.z[k];
+        }
+    }
+    ++refreshes_;
+    return true;
+}
+
 std::size_t NeighbourList::bytes() const
 {
-    std::size_t total = clusters_.size() * (sizeof(Cluster) + sizeof(Box) + sizeof(Range));
-    for (const auto& chunk : chunks_)
-        total += chunk.capacity() * sizeof(Index);
+    std::size_t total = clusters_.size() * (sizeof(Cluster) + sizeof(Box) + sizeof(Range) + sizeof(own_lists_[0]) + 1) +
+                        cluster_of_.size() * sizeof(Index);
+    for (const auto* lists : {&chunks_, &own_lists_})
+        for (const auto& list : *lists)
+            total += list.capacity() * sizeof(Index);
     return total + 3 * built_x_.size() * sizeof(double);
 }
 

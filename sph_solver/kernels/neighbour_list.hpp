@@ -28,20 +28,28 @@ public:
     /// Sorts all particles into columns, cuts clusters and lists their neighbours.
     void build(Particles& particles);
 
-    /// Whether one of the particles that move (places) has moved further than half the skin since the last build.
+    /// Lists anew what the particles of the clusters `moved` concern, in place: order and clusters stay, and so do the
+    /// lists elsewhere. `moved` names every cluster with a particle that is not where it was when last listed. False
+    /// where a build() is needed instead: much has moved, or clusters have spread.
+    bool refresh(const Particles& particles, std::span<const Index> moved);
+
+    /// Whether one of the particles that move (places) has moved further than half the skin since it was listed.
     bool outdated(const Particles& particles, std::span<const Index> moving) const;
 
     Index cluster_count() const { return static_cast<Index>(clusters_.size()); }
     const Cluster& cluster(Index c) const { return clusters_[static_cast<std::size_t>(c)]; }
+    Index cluster_of(Index particle) const { return cluster_of_[static_cast<std::size_t>(particle)]; }
     std::span<const Index> neighbours(Index c) const
     {
         const auto& range = ranges_[static_cast<std::size_t>(c)];
+        if (range.chunk == own_list) return own_lists_[static_cast<std::size_t>(c)];
         return {chunks_[static_cast<std::size_t>(range.chunk)].data() + range.begin,
                 static_cast<std::size_t>(range.count)};
     }
     std::uint64_t builds() const { return builds_; }
+    std::uint64_t refreshes() const { return refreshes_; }
     double support() const { return support_; }
-    /// Corners of the box that the particles spanned when the list was built, m.
+    /// Corners of the box that the particles spanned when they were last listed, m.
     const Vector& lower() const { return lower_; }
     const Vector& upper() const { return upper_; }
     std::size_t bytes() const;
@@ -49,7 +57,7 @@ public:
 private:
     struct Range
     {
-        Index chunk;
+        Index chunk; ///< own_list where refresh() has given the cluster a list of its own
         std::size_t begin;
         Index count;
     };
@@ -57,24 +65,36 @@ private:
     {
         Vector lower, upper;
     };
+    static constexpr Index own_list = -1;
 
     void sort_into_columns(Particles& particles);
+    void cut_clusters(const std::vector<Index>& first_of_column);
     void find_neighbours(const Particles& particles);
     void list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
                       std::vector<Index>& found) const;
+    void spread_loose_over_columns();
+    std::vector<Index> clusters_near(std::span<const Index> moved) const;
+    template <class Visit> void for_each_cluster_near(const Box& box, const Visit& visit) const;
+    Box box_of(const Particles& particles, Index c) const;
     Index column_x(double x) const;
     Index column_y(double y) const;
 
     double support_, skin_, column_width_;
-    Vector lower_{}, upper_{};
+    Vector origin_{}, lower_{}, upper_{};
     Index columns_x_ = 0, columns_y_ = 0;
-    std::vector<Index> first_cluster_of_column_;
+    std::vector<Index> first_cluster_of_column_, cluster_of_;
     std::vector<Cluster> clusters_;
     std::vector<Box> boxes_;
     std::vector<Range> ranges_;
     std::vector<std::vector<Index>> chunks_;
     Array built_x_, built_y_, built_z_;
-    std::uint64_t builds_ = 0;
+    std::uint64_t builds_ = 0, refreshes_ = 0;
+
+    // Clusters that have moved since the build: no longer in the column, nor at the height, that they were sorted to.
+    std::vector<std::vector<Index>> own_lists_;
+    std::vector<unsigned char> is_loose_;
+    std::vector<Index> loose_;
+    std::vector<Index> first_loose_of_column_, loose_of_column_; ///< those whose box reaches into a column
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

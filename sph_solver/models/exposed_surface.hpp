@@ -36,6 +36,10 @@ struct ExposedSurface
 
     struct Near
     {};
+    struct Far
+    {
+        Real metal_volume;
+    };
     struct Sum
     {
         VectorLanes gradient{};
@@ -44,11 +48,11 @@ struct ExposedSurface
 
     bool idle(const Cluster&) const { return false; }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(metal[j] * volume[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const double weight = metal[j] * volume[j];
-        sum.gradient += (weight * pair.gradient_over_r) * pair.offset;
-        sum.filling += weight * pair.kernel;
+        sum.gradient += (j.metal_volume * pair.gradient_over_r) * pair.offset;
+        sum.filling += j.metal_volume * pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -60,8 +64,10 @@ struct ExposedSurface
             const double flat =
                 slope * smoothing_length > threshold ? volume[i] * 2.0 * slope / outermost_layer_share : 0.0;
             const double emptiness = std::max(0.0, 1.0 - 2.0 * (sum.filling[lane] + wall.share));
-            const double sphere = std::cbrt(36.0 * std::numbers::pi * volume[i] * volume[i]);
-            area[i] = std::max(flat, metal[i] * emptiness * sphere);
+            area[i] = flat;
+            if (emptiness > 0.0)
+                area[i] =
+                    std::max(flat, metal[i] * emptiness * std::cbrt(36.0 * std::numbers::pi * volume[i] * volume[i]));
         }
     }
 };

@@ -80,6 +80,10 @@ struct KernelCompleteness
 
     struct Near
     {};
+    struct Far
+    {
+        Real conducting_volume;
+    };
     struct Sum
     {
         Lanes share{};
@@ -87,9 +91,10 @@ struct KernelCompleteness
 
     bool idle(const Cluster&) const { return false; }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(conductivity[j] > 0.0 ? volume[j] : 0.0)}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (conductivity[j] > 0.0) sum.share += volume[j] * pair.kernel;
+        sum.share += j.conducting_volume * pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -23,6 +23,10 @@ struct MoltenNeighbours
 
     struct Near
     {};
+    struct Far
+    {
+        Real molten, standing; ///< 1 for what it is; both 0 for a wall
+    };
     struct Sum
     {
         Lanes molten{}, standing{};
@@ -33,11 +37,16 @@ struct MoltenNeighbours
         return none_in(cluster, [&](Index i) { return liquid_fraction[i] >= molten_above; });
     }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return;
+        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return {0, 0};
+        return liquid_fraction[j] >= molten_above ? Far{1, 0} : Far{0, 1};
+    }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
         const Lanes one = select(pair.distance < counting_reach * smoothing_length, 1.0, 0.0);
-        (liquid_fraction[j] >= molten_above ? sum.molten : sum.standing) += one;
+        sum.molten += j.molten * one;
+        sum.standing += j.standing * one;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

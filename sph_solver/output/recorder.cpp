@@ -13,8 +13,7 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-/// Steps after which a run settles: the places where a checkpoint can be, whatever the clock says.
-constexpr std::uint64_t steps_between_settling = 50;
+constexpr std::uint64_t steps_between_history_rows = 50;
 constexpr std::uint64_t steps_between_guards = 10;
 
 /// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
@@ -174,9 +173,10 @@ void Recorder::after_step()
         if (output_time(next_output_) >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
         ++next_output_;
     }
-    if (steps % steps_between_settling == 0) {
+    if (steps % steps_between_history_rows == 0) add_history_row();
+    // The places where a checkpoint can be, whatever the clock says.
+    if (simulation_.due_to_settle()) {
         simulation_.settle();
-        add_history_row();
         if (!ending_ && (stop_requested() || checkpoints_->due())) write_checkpoint();
         if (!ending_ && stop_requested()) ending_ = Ending::interrupted;
     }

@@ -24,7 +24,7 @@ const std::vector<Engine>& engines()
 
 bool machine_has(const std::string& instructions)
 {
-#if defined(CUPEL_HAS_X86_ENGINES)
+#if defined(__x86_64__)
     if (instructions == "avx512")
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&

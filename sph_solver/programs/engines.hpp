@@ -7,12 +7,21 @@
 #include "scene/case.hpp"
 
 /// Calls use(instructions, precision, namespace) for each engine that is compiled, the fastest first.
-#if defined(CUPEL_HAS_X86_ENGINES)
-#define CUPEL_FOR_EACH_ENGINE(use)                                                                                     \
-    use(avx512, double, avx512_double) use(avx512, float, avx512_float) use(avx2, double, avx2_double)                 \
-        use(avx2, float, avx2_float) use(portable, double, portable_double) use(portable, float, portable_float)
+#define CUPEL_FOR_EACH_ENGINE(use) CUPEL_AVX512_ENGINES(use) CUPEL_AVX2_ENGINES(use) CUPEL_PORTABLE_ENGINES(use)
+#if defined(CUPEL_HAS_AVX512_ENGINES)
+#define CUPEL_AVX512_ENGINES(use) use(avx512, double, avx512_double) use(avx512, float, avx512_float)
 #else
-#define CUPEL_FOR_EACH_ENGINE(use) use(portable, double, portable_double) use(portable, float, portable_float)
+#define CUPEL_AVX512_ENGINES(use)
+#endif
+#if defined(CUPEL_HAS_AVX2_ENGINES)
+#define CUPEL_AVX2_ENGINES(use) use(avx2, double, avx2_double) use(avx2, float, avx2_float)
+#else
+#define CUPEL_AVX2_ENGINES(use)
+#endif
+#if defined(CUPEL_HAS_PORTABLE_ENGINES)
+#define CUPEL_PORTABLE_ENGINES(use) use(portable, double, portable_double) use(portable, float, portable_float)
+#else
+#define CUPEL_PORTABLE_ENGINES(use)
 #endif
 
 namespace cupel

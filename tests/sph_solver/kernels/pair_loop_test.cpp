@@ -2,6 +2,9 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include "small_scenes.hpp"
@@ -135,6 +138,72 @@ TEST(NeighbourList, StaysCompleteUntilAParticleHasMovedHalfTheSkin)
     }
     particles.position.x[0] += 0.01 * skin * (0 % 2 ? 1.0 : -1.0);
     EXPECT_TRUE(list.outdated(particles, moving));
+}
+
+/// Every pair within support and skin is listed, from either side, and nothing twice.
+void expect_complete(const NeighbourList& list, const Particles& particles, double skin)
+{
+    std::size_t missing = 0, twice = 0;
+    for (Index c = 0; c < list.cluster_count(); ++c) {
+        std::vector<int> listed(static_cast<std::size_t>(particles.count()), 0);
+        for (const Index j : list.neighbours(c))
+            twice += ++listed[static_cast<std::size_t>(j)] > 1 ? 1 : 0;
+        for (Index i = list.cluster(c).first; i < list.cluster(c).first + list.cluster(c).count; ++i)
+            for (Index j = 0; j < particles.count(); ++j)
+                missing += !listed[static_cast<std::size_t>(j)] &&
+                                   norm(particles.position[i] - particles.position[j]) < support + skin
+                               ? 1
+                               : 0;
+    }
+    EXPECT_EQ(missing, 0U);
+    EXPECT_EQ(twice, 0U);
+}
+
+/// Moves the particles around `middle` step by step and returns how many of the steps a refresh was enough for.
+int refreshes_along(const Vector& middle, std::initializer_list<Vector> steps)
+{
+    const double skin = 0.4;
+    Particles particles = jittered_lattice(16, 3, 0.3);
+    NeighbourList list(support, skin, 1.0, 3);
+    list.build(particles);
+    std::vector<Index> flying, moved;
+    for (Index i = 0; i < particles.count(); ++i)
+        if (norm(particles.position[i] - middle) < 1.5) flying.push_back(i);
+    for (const Index i : flying)
+        if (std::find(moved.begin(), moved.end(), list.cluster_of(i)) == moved.end())
+            moved.push_back(list.cluster_of(i));
+    int refreshed = 0;
+    for (const Vector& step : steps) {
+        for (const Index i : flying)
+            particles.position.set(i, particles.position[i] + step);
+        EXPECT_TRUE(list.outdated(particles, flying));
+        if (!list.refresh(particles, moved)) continue;
+        ++refreshed;
+        EXPECT_FALSE(list.outdated(particles, flying));
+        expect_complete(list, particles, skin);
+    }
+    EXPECT_EQ(list.builds(), 1U);
+    return refreshed;
+}
+
+TEST(NeighbourList, RefreshFindsWhatComesNear)
+{
+    EXPECT_EQ(refreshes_along({8, 8, 8}, {{0.5, 0.3, 0.1}, {0.8, -0.5, 0}, {-0.5, -1, 0.5}, {0, 0, -2}}), 4);
+}
+
+TEST(NeighbourList, RefreshFollowsWhatLeavesTheBlockAndItsColumns)
+{
+    EXPECT_GE(refreshes_along({15, 15, 15}, {{0.5, 0, 0}, {0, 0.5, 2}, {4, 0, 2}, {-30, 0, 0}}), 3);
+}
+
+TEST(NeighbourList, RefreshLeavesToABuildWhatMovesAsAWhole)
+{
+    Particles particles = jittered_lattice(8, 3, 0.3);
+    NeighbourList list(support, 0.4, 1.0, 3);
+    list.build(particles);
+    std::vector<Index> all(static_cast<std::size_t>(list.cluster_count()));
+    std::iota(all.begin(), all.end(), Index{0});
+    EXPECT_FALSE(list.refresh(particles, all));
 }
 
 TEST(NeighbourList, OrderDependsOnPositionsAndIdentitiesAlone)

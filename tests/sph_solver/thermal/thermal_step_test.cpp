@@ -209,7 +209,7 @@ TEST(ThermalStep, SumsOfPlacesFollowParticlesThatMove)
     for (Index i = 0; i < particles.count(); ++i)
         if (const Vector p = particles.position[i]; p.z > -6e-5) {
             particles.position.set(i, {p.x, p.y, p.z + 8e-5});
-            particles.velocity.set(i, {0, 0, 1});
+            step.mark_moved(i);
         }
     list.build(particles);
     step.advance(list, 1e-9, 1e-9);
