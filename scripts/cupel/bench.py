@@ -33,10 +33,14 @@ def run_benchmarks(mode: str, repetitions: int) -> dict:
         raise CupelError(f"the benchmarks ended with status {done.returncode}: {done.stderr.strip() or 'no message'}")
     report = json.loads(done.stdout)
     table = arrange(report["benchmarks"])
-    table["host"] = host() | {"mhz": report["context"]["mhz_per_cpu"], "instructions": report["context"]["instructions"]}
-    table["commit"] = code_commit()
-    table["command"] = f"./cupel bench --{mode} --repetitions {repetitions}" if mode != "default" else f"./cupel bench --repetitions {repetitions}"
-    return table
+    options = f"--{mode} " if mode != "default" else ""
+    return table | origin(f"./cupel bench {options}--repetitions {repetitions}") | {
+        "instructions": report["context"]["instructions"], "mhz": report["context"]["mhz_per_cpu"]}
+
+
+def origin(command: str) -> dict:
+    """Where a table comes from: host, commit of the code, command."""
+    return {"host": {"cpu": host()["cpu"], "cores": host()["cores"]}, "commit": code_commit(), "command": command}
 
 
 def arrange(rows: list[dict]) -> dict:
@@ -79,7 +83,7 @@ def arrange(rows: list[dict]) -> dict:
 
 def print_table(table: dict) -> None:
     """The table for a reader."""
-    print(f"{table['host']['cpu']}, {table['host']['instructions']}; million particle updates a second a core")
+    print(f"{table['host']['cpu']}, {table['instructions']}; million particle updates a second a core")
     for key in ("plain_double", "plain_float", "full_step", "full_step_float", "naive_plain"):
         print(f"  {key:18}" + "".join(f"{count:>6}: {rate:7.3f}" for count, rate in table[key].items()))
     print(f"  {'two threads / one':18}" + "".join(f"{count:>6}: {x:7.3f}" for count, x in table["thread_scaling"].items()))
@@ -90,10 +94,17 @@ def print_table(table: dict) -> None:
 
 
 def main(mode: str, repetitions: int, as_json: bool) -> int:
-    table = run_benchmarks(mode, repetitions)
+    """mode: a key of COUNTS, or "savings"."""
+    if mode == "savings":
+        from .savings import print_savings, run_savings
+
+        table = {"savings": run_savings()} | origin("./cupel bench --savings")
+        show = lambda whole: print_savings(whole["savings"])
+    else:
+        table, show = run_benchmarks(mode, repetitions), print_table
     if as_json:
         json.dump(table, sys.stdout, indent=1)
         print()
     else:
-        print_table(table)
+        show(table)
     return 0

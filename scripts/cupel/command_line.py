@@ -141,12 +141,14 @@ def bench(
     as_json: bool = typer.Option(False, "--json", help="JSON instead of a table."),
     quick: bool = typer.Option(False, "--quick", help="Small scenes only: seconds, to see that all works."),
     everything: bool = typer.Option(False, "--all", help="Up to ten million particles: minutes, several GiB."),
+    savings: bool = typer.Option(False, "--savings", help="What computing only what moves is worth: minutes."),
     repetitions: int = typer.Option(3, min=1, help="Of each benchmark; the median counts."),
 ) -> int:
     """Time the SPH engine: updates a second, memory, and what each model costs."""
     from . import bench as benchmarks
 
-    return benchmarks.main("quick" if quick else "all" if everything else "default", repetitions, as_json)
+    mode = "savings" if savings else "quick" if quick else "all" if everything else "default"
+    return benchmarks.main(mode, repetitions, as_json)
 
 
 @app.command()

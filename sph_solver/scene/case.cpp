@@ -129,6 +129,7 @@ Numerics numerics_from(const json& table)
     numerics.time_step_factor = table.at("time_step_factor");
     numerics.thermal_time_step_factor = table.at("thermal_time_step_factor");
     numerics.skin = table.at("skin");
+    numerics.without_saving = table.at("without_saving");
     numerics.background_pressure_factor = table.at("background_pressure_factor");
     return numerics;
 }

@@ -154,6 +154,7 @@ struct Numerics
     double time_step_factor = 1;
     double thermal_time_step_factor = 1;
     double skin = 0; ///< extra radius of the neighbour list / particle spacing
+    std::string without_saving = "none"; ///< what is computed in full all the same; "none" of the savings
     double background_pressure_factor = 0;
 };
 

@@ -88,6 +88,9 @@ Table numerics_declaration()
              .at_least(0)
              .at_most(2)
              .or_else(0.3),
+         choice("without_saving", {"none", "moving_momentum", "thermal_clock", "local_lists", "kept_sums"},
+                "computes in full what this saving leaves out, so that it can be measured (./cupel bench --savings)")
+             .or_else("none"),
          quantity("background_pressure_factor", "1", "background pressure of two-phase runs over rho c^2")
              .at_least(0)
              .at_most(1)

@@ -3,7 +3,7 @@
 import json
 import subprocess
 
-from cupel import bench
+from cupel import bench, savings
 from cupel.layout import ROOT
 
 
@@ -24,3 +24,11 @@ def test_a_model_is_charged_what_it_adds():
 
     models = bench.arrange([row("flow", 1e6, 400.0), row("heat", 5e5, 450.0)])["models"]
     assert models == {"flow": {"time_ns": 1000.0, "bytes": 400.0}, "heat": {"time_ns": 1000.0, "bytes": 50.0}}
+
+
+def test_savings_change_the_cost_and_not_the_pool():
+    table = savings.run_savings(end_ms=0.3, overrides=("resolution.coarse=40 um",))
+    assert set(table) == {"none", *savings.SAVINGS}
+    assert table["none"]["width"] > 0
+    for row in table.values():
+        assert row["cpu_s"] > 0 and abs(row["width_change"]) < 0.05
