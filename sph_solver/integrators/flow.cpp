@@ -88,11 +88,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
                                          surface_->fields().delta, *mean_temperature_});
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         if (surface_ && surface_->fields().delta[i] > 0.0) {
             const SurfaceFields& surface = surface_->fields();
@@ -111,7 +107,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             acceleration += (1.0 / particles_.density[i]) * force_density;
         }
         acceleration_.set(i, acceleration);
-    }
+    });
 }
 
 std::unique_ptr<Flow> make_flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)

@@ -24,7 +24,7 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
-        balance_ = &particles_.add_scalar({"shifting_balance", "1"});
+        balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
         strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
         if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
@@ -53,32 +53,29 @@ void FreeSurfaceFlow::start_hydrostatic()
 
 void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step)
 {
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         Vector speed = particles_.velocity[i];
         if (shift_) speed += (*shift_)[i];
         particles_.position.set(i, particles_.position[i] + time_step * speed);
-    }
+    });
 }
 
 void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
-    if (shift_) shift_->set(place, {});
+    if (!shift_) return;
+    shift_->set(place, {});
+    // Walls and solids have the mass that they started with or froze with, and no say in it.
+    (*balance_)[place] = 1.0;
 }
 
 /// What the exchange by shifting needs beforehand: the shifting velocity of walls and each particle's say in it.
 void FreeSurfaceFlow::prepare_exchange(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
-    // Walls and solids have the mass that they started with or froze with, and no say in it.
-    std::fill(balance_->values.begin(), balance_->values.end(), 1.0);
     const double lattice_mass = rest_density_ * scene_.particle_volume();
-    for (const Index i : neighbourhood.moving_particles())
-        (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass);
+    neighbourhood.for_each_moving(
+        [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
 }
 
 /// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.
@@ -105,22 +102,27 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
                                    *energy_rate_});
 }
 
-/// The matrices that correct gradients, where something needs them, and the gradient of density with the same pass.
-void FreeSurfaceFlow::correct_gradients(const Neighbourhood& neighbourhood)
+/// The sums that need nothing but places: the colour gradient, the matrices that correct gradients, where something
+/// needs them, and with the same pass the gradient of density.
+void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
 {
-    if (!density_gradient_ && !shift_ && !temperature_gradient_) return;
+    const auto sum = [&](const auto&... terms) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
+    };
+    const auto sum_with_surface = [&](const auto&... terms) {
+        surface_ ? sum(terms..., surface_->colour_gradient()) : sum(terms...);
+    };
     const GradientCorrection correction{mobility_, scene_.dimensions, particles_.volume, correction_};
-    if (!density_gradient_) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction);
-        return;
+    if (density_gradient_) {
+        sum_with_surface(correction,
+                         ScalarGradient{mobility_, particles_.volume, particles_.density, *density_gradient_});
+        neighbourhood.for_each_moving(
+            [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
     }
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction,
-                  ScalarGradient{mobility_, particles_.volume, particles_.density, *density_gradient_});
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-        density_gradient_->set(moving[m], correction_[moving[m]] * (*density_gradient_)[moving[m]]);
+    else if (shift_ || temperature_gradient_)
+        sum_with_surface(correction);
+    else if (surface_)
+        sum(surface_->colour_gradient());
 }
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
@@ -182,12 +184,9 @@ void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
 
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-
     extrapolate_to_walls(neighbourhood, false);
     give_walls_volume(neighbourhood);
-    correct_gradients(neighbourhood);
+    sum_over_places(neighbourhood);
 
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
     // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
@@ -195,22 +194,19 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     constexpr double limit = 0.05;
     find_rates(neighbourhood);
     if (shift_) exchange_mass(neighbourhood, time_step);
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         particles_.density[i] += time_step * density_rate_[i];
         // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
-        if (surface_ && started_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
+        if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
         particles_.density[i] =
             std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
-    }
+    });
     extrapolate_to_walls(neighbourhood, false);
     give_walls_volume(neighbourhood);
 
-    if (surface_) surface_->update(neighbourhood);
-    started_ = true;
+    if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
     add_remedies(neighbourhood);
     accelerate(neighbourhood);

@@ -18,7 +18,7 @@ public:
 
 private:
     void start_hydrostatic();
-    void correct_gradients(const Neighbourhood& neighbourhood);
+    void sum_over_places(const Neighbourhood& neighbourhood);
     void prepare_exchange(const Neighbourhood& neighbourhood);
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
@@ -28,7 +28,6 @@ private:
     CorrectionMatrix correction_;
     ScalarField& density_rate_;
     double rest_density_;
-    bool started_ = false;                    ///< the surface has been found once
     VectorField* density_gradient_ = nullptr; ///< only where density diffuses
     // Only where the case shifts particles:
     VectorField* shift_ = nullptr;

@@ -9,10 +9,16 @@ Neighbourhood::Neighbourhood(double support, double skin, double spacing, int di
     : list_(support, skin, spacing, dimensions)
 {}
 
+void Neighbourhood::compute_everywhere()
+{
+    computes_everywhere_ = true;
+    list_.skip_nothing();
+}
+
 void Neighbourhood::update(Particles& particles, const ScalarField& mobility)
 {
     if (!list_.outdated(particles, moving_particles_)) return;
-    if (!list_.refresh(particles, wandered_)) {
+    if (lists_everywhere_ || !list_.refresh(particles, wandered_)) {
         rebuild(particles, mobility);
         return;
     }
@@ -50,8 +56,9 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
 
     // What is near is near from either side: what stands beside something that moves is in its list.
     for (const Index c : moving_) {
-        for (const Index j : list_.neighbours(c))
+        list_.for_each_neighbour(c, [&](Index j) {
             if (mobility[j] == 0.0) touched[static_cast<std::size_t>(list_.cluster_of(j))] = 1;
+        });
         auto& wandered = has_wandered_[static_cast<std::size_t>(c)];
         if (!wandered) wandered_.push_back(c);
         wandered = 1;
@@ -59,6 +66,7 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
     standing_.clear();
     for (const Index c : all_)
         if (touched[static_cast<std::size_t>(c)]) standing_.push_back(c);
+    if (computes_everywhere_) moving_ = standing_ = all_;
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

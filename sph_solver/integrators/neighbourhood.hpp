@@ -14,6 +14,10 @@ class Neighbourhood
 public:
     Neighbourhood(double support, double skin, double spacing, int dimensions);
 
+    /// Without this saving, to measure what it is worth: momentum where nothing moves, or lists anew everywhere.
+    void compute_everywhere();
+    void list_everywhere() { lists_everywhere_ = true; }
+
     /// Lists anew where a particle has moved too far: what moves and what it is near, or, where that is much,
     /// everything.
     void update(Particles& particles, const ScalarField& mobility);
@@ -28,6 +32,15 @@ public:
     /// Places of the particles that move, in order.
     const std::vector<Index>& moving_particles() const { return moving_particles_; }
 
+    /// apply(place) for each particle that moves; by all threads where there are enough particles to share.
+    template <class Apply> void for_each_moving(const Apply& apply) const
+    {
+        const std::size_t count = moving_particles_.size();
+#pragma omp parallel for schedule(static) if (count > 1024)
+        for (std::size_t m = 0; m < count; ++m)
+            apply(moving_particles_[m]);
+    }
+
 private:
     void forget_wanderers();
 
@@ -35,6 +48,7 @@ private:
     std::vector<Index> all_, moving_, standing_, moving_particles_;
     std::vector<Index> wandered_; ///< clusters in which something has moved since it was listed
     std::vector<unsigned char> has_wandered_;
+    bool computes_everywhere_ = false, lists_everywhere_ = false;
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

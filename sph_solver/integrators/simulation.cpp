@@ -34,6 +34,10 @@ Simulation::Simulation(Scene scene)
       neighbourhood_(QuinticSpline(parameters_.smoothing_length, scene_.dimensions).support(),
                      scene_.definition.numerics.skin * scene_.spacing, scene_.spacing, scene_.dimensions)
 {
+    const std::string& saving = scene_.definition.numerics.without_saving;
+    if (saving == "moving_momentum") neighbourhood_.compute_everywhere();
+    if (saving == "local_lists") neighbourhood_.list_everywhere();
+    heats_every_step_ = saving == "thermal_clock";
     Particles& particles = *scene_.particles;
     if (frozen_temperature_) {
         particles.add_scalar({"temperature", "K", Output::yes});
@@ -135,17 +139,13 @@ void Simulation::kick(double time_step)
 {
     Particles& particles = *scene_.particles;
     const VectorField& acceleration = flow_->acceleration();
-    const auto& moving = neighbourhood_.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood_.for_each_moving([&](Index i) {
         Vector velocity = particles.velocity[i] + time_step * acceleration[i];
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
         if (melts_ && (*liquid_fraction_)[i] < 1.0)
             velocity = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], time_step) * velocity;
         particles.velocity.set(i, velocity);
-    }
+    });
 }
 
 bool Simulation::outside(const Vector& p) const
@@ -168,15 +168,12 @@ void Simulation::hold_before_walls()
             v = std::min(v, 0.0);
         }
     };
-    const auto& moving = neighbourhood_.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const auto k = static_cast<std::size_t>(moving[m]);
+    neighbourhood_.for_each_moving([&](Index i) {
+        const auto k = static_cast<std::size_t>(i);
         hold(particles.position.x[k], particles.velocity.x[k], wall_lower_.x, wall_upper_.x);
         hold(particles.position.y[k], particles.velocity.y[k], wall_lower_.y, wall_upper_.y);
         hold(particles.position.z[k], particles.velocity.z[k], wall_lower_.z, wall_upper_.z);
-    }
+    });
 }
 
 /// What has flown out through a side without a wall stops there: it takes no further part in the flow. Its mass and
@@ -245,8 +242,13 @@ void Simulation::melt_and_solidify()
     Particles& particles = *scene_.particles;
     for_each_pair(neighbourhood_.list(), particles, QuinticSpline(parameters_.smoothing_length, scene_.dimensions),
                   neighbourhood_.all(),
-                  MoltenNeighbours{*liquid_fraction_, particles.kind, CarmanKozeny::coherent_below,
-                                   parameters_.smoothing_length, *molten_neighbours_, *standing_neighbours_});
+                  MoltenNeighbours{{mobility_},
+                                   *liquid_fraction_,
+                                   particles.kind,
+                                   CarmanKozeny::coherent_below,
+                                   parameters_.smoothing_length,
+                                   *molten_neighbours_,
+                                   *standing_neighbours_});
     const double rest_density = scene_.materials.front().density;
     bool changed = false;
     for (Index i = 0; i < particles.count(); ++i) {
@@ -273,7 +275,8 @@ double Simulation::step(double longest)
     if (flow_ && !neighbourhood_.moving_particles().empty()) advance_flow(time_step);
     time_ += time_step;
     // The thermal clock: as late as its stability allows, but never later than an output.
-    if (heat_ && (time_ - heat_time_ + time_step > heat_->stable_time_step() || last_binding_ == "output"))
+    if (heat_ &&
+        (heats_every_step_ || last_binding_ == "output" || time_ - heat_time_ + time_step > heat_->stable_time_step()))
         advance_heat(time_);
     ++steps_;
     last_time_step_ = time_step;

@@ -76,6 +76,7 @@ private:
     Scene scene_;
     ScalarField& mobility_;
     bool has_flow_, has_heat_, melts_, frozen_temperature_;
+    bool heats_every_step_ = false;
     FlowParameters parameters_;
     TimeStepLimits limits_;
     Neighbourhood neighbourhood_;

@@ -39,36 +39,53 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
     }
 }
 
-void SurfaceTracker::update(const Neighbourhood& neighbourhood)
+void SurfaceTracker::find(const Neighbourhood& neighbourhood)
 {
-    find_surface(neighbourhood);
-    if (wall_interface_) {
-        prescribe_wall_normals(neighbourhood);
-        find_surface(neighbourhood);
-    }
+    neighbourhood.for_each_moving([&](Index i) { finish_gradient(i); });
+    find_band(neighbourhood);
+    if (wall_interface_) wet_walls(neighbourhood);
     smooth_normals(neighbourhood);
     if (needs_curvature_) fit_curvature(neighbourhood);
 }
 
-void SurfaceTracker::find_surface(const Neighbourhood& neighbourhood)
+/// Near a free surface only what has a neighbour at the surface itself belongs to it.
+void SurfaceTracker::find_band(const Neighbourhood& neighbourhood)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  ColourGradient{mobility_, two_phase_, h_, particles_.volume, fields_});
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m)
-        finish_gradient(moving[m]);
     if (two_phase_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceNeighbourhood{mobility_, fields_});
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         const bool near_surface = fields_.in_band[i] != 0.0 || fields_.raw_curvature[i] > 0.0;
-        const bool spray = is_spray(i);
-        if (!near_surface || spray) fields_.delta[i] = 0.0;
+        if (!near_surface || is_spray(i)) fields_.delta[i] = 0.0;
+    });
+}
+
+/// Walls take the colour and the normal that the contact angle asks for, and the liquid that touches them sees its
+/// surface anew.
+void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
+{
+    const NeighbourList& list = neighbourhood.list();
+    std::vector<Index> walls;
+    for (const Index c : neighbourhood.standing())
+        if (!none_in(list.cluster(c),
+                     [&](Index i) { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }))
+            walls.push_back(c);
+    if (walls.empty()) return;
+    prescribe_wall_normals(neighbourhood, walls);
+
+    std::vector<unsigned char> touches(neighbourhood.all().size(), 0);
+    for (const Index c : walls)
+        list.for_each_neighbour(c, [&](Index j) { touches[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
+    std::vector<Index> wetting;
+    for (const Index c : neighbourhood.moving())
+        if (touches[static_cast<std::size_t>(c)]) wetting.push_back(c);
+    for_each_pair(list, particles_, kernel_, wetting, colour_gradient());
+    for (const Index c : wetting) {
+        const Cluster& cluster = list.cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility_.weight[i] != 0.0) finish_gradient(i);
     }
+    find_band(neighbourhood);
 }
 
 void SurfaceTracker::finish_gradient(Index i)
@@ -86,14 +103,14 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
 }
 
-void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood)
+void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), *wall_interface_);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
     const WallInterface& wall = *wall_interface_;
     const double sine = std::sin(wall.contact_angle), cosine = std::cos(wall.contact_angle);
     const double kernel_at_zero = kernel_(1e-9 * h_).value;
     const double volume = dimensions_ == 2 ? spacing_ * spacing_ : spacing_ * spacing_ * spacing_;
-    for (const Index c : neighbourhood.standing()) {
+    for (const Index c : walls) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
@@ -129,16 +146,12 @@ void SurfaceTracker::smooth_normals(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   NormalSmoothing{mobility_, fields_});
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
-        if (!(fields_.delta[i] > 0.0)) continue;
+    neighbourhood.for_each_moving([&](Index i) {
+        if (!(fields_.delta[i] > 0.0)) return;
         const Vector normal = fields_.smoothed_normal[i];
         fields_.normal.set(i, normal);
         if (!two_phase_) fields_.delta[i] = std::max(1e-9 / h_, 2.0 * dot(fields_.colour_gradient[i], normal));
-    }
+    });
 }
 
 void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)

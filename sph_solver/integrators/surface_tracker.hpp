@@ -20,7 +20,9 @@ public:
     SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
                    const ScalarField& mobility);
 
-    void update(const Neighbourhood& neighbourhood);
+    /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
+    ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, particles_.volume, fields_}; }
+    void find(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }
     /// A particle that has just melted or frozen is at no surface until the next update finds it there.
@@ -35,9 +37,10 @@ public:
     double fewest_companions() const { return thresholds_.fewest_companions * full_companions_; }
 
 private:
-    void find_surface(const Neighbourhood& neighbourhood);
     void finish_gradient(Index i);
-    void prescribe_wall_normals(const Neighbourhood& neighbourhood);
+    void find_band(const Neighbourhood& neighbourhood);
+    void wet_walls(const Neighbourhood& neighbourhood);
+    void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void smooth_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);
 

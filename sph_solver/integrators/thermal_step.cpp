@@ -58,6 +58,7 @@ ThermalStep::ThermalStep(Scene& scene)
       power_(particles_.add_scalar({"heating_power", "W"})), moved_(particles_.add_scalar({"moved", "1"}))
 {
     const Case& definition = scene.definition;
+    keeps_sums_ = definition.numerics.without_saving != "kept_sums";
     if (definition.requires_physics("melting"))
         liquid_fraction_ = &particles_.add_scalar({"liquid_fraction", "1", Output::yes});
     if (definition.requires_physics("laser")) {
@@ -175,7 +176,7 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
     all_clusters_.resize(static_cast<std::size_t>(list.cluster_count()));
     std::iota(all_clusters_.begin(), all_clusters_.end(), Index{0});
     stale_clusters_.clear();
-    if (!geometry_known_) {
+    if (!geometry_known_ || !keeps_sums_) {
         stale_clusters_ = all_clusters_;
         geometry_known_ = true;
         return;
@@ -187,8 +188,7 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
             moved = moved || moved_[i] != 0.0;
         if (!moved) continue;
-        for (const Index j : list.neighbours(c))
-            stale[static_cast<std::size_t>(list.cluster_of(j))] = 1;
+        list.for_each_neighbour(c, [&](Index j) { stale[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
     }
     for (const Index c : all_clusters_)
         if (stale[static_cast<std::size_t>(c)]) stale_clusters_.push_back(c);

@@ -126,7 +126,7 @@ private:
     ScalarField* exposed_area_ = nullptr; ///< only with losses
     std::optional<ArtificialHeatFields> artificial_heat_;
     std::vector<Index> all_clusters_, stale_clusters_;
-    bool geometry_known_ = false;
+    bool geometry_known_ = false, keeps_sums_ = true;
     double stable_time_step_ = 0, lowest_possible_ = 0;
     HeatBooks books_;
 };

@@ -25,14 +25,10 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
 
 void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
 {
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         const Vector transport = (0.5 * time_step / particles_.mass[i]) * transport_force_[i];
         particles_.position.set(i, particles_.position[i] + time_step * (particles_.velocity[i] + transport));
-    }
+    });
 }
 
 void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
@@ -40,14 +36,10 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
     const auto& list = neighbourhood.list();
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   DensitySummation{mobility_, particles_.mass, particles_.volume, particles_.density});
-    const auto& moving = neighbourhood.moving_particles();
-    const auto count = moving.size();
-#pragma omp parallel for schedule(static)
-    for (std::size_t m = 0; m < count; ++m) {
-        const Index i = moving[m];
+    neighbourhood.for_each_moving([&](Index i) {
         const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
         particles_.pressure[i] = stiffness_ * (particles_.density[i] / rest - 1.0);
-    }
+    });
     extrapolate_to_walls(neighbourhood, true);
     const double lattice_volume = scene_.particle_volume();
     for (const Index c : neighbourhood.standing()) {
@@ -56,7 +48,10 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
             if (mobility_.weight[i] == 0.0)
                 particles_.volume[i] = lattice_volume / (1.0 + particles_.pressure[i] / stiffness_);
     }
-    if (surface_) surface_->update(neighbourhood);
+    if (surface_) {
+        for_each_pair(list, particles_, kernel_, neighbourhood.moving(), surface_->colour_gradient());
+        surface_->find(neighbourhood);
+    }
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
                   TwoPhaseMomentum{mobility_, particles_.volume, particles_.density, particles_.pressure, viscosity_,
                                    particles_.velocity, parameters_.background_pressure, force_, transport_force_});

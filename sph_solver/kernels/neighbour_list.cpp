@@ -46,6 +46,29 @@ Vector most(const Vector& a, const Vector& b)
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
+Index neighbours_in(std::span<const Run> runs)
+{
+    return std::accumulate(runs.begin(), runs.end(), Index{0},
+                           [](Index sum, const Run& run) { return sum + run.count; });
+}
+
+/// Appends first + bit for each bit that is set, as runs, to a list that may end with the particle before.
+void append_runs(std::vector<Run>& list, std::size_t begin, Index first, unsigned bits)
+{
+    while (bits != 0) {
+        const int skipped = std::countr_zero(bits);
+        bits >>= skipped;
+        first += skipped;
+        const int count = std::countr_one(bits);
+        if (list.size() > begin && list.back().first + list.back().count == first)
+            list.back().count += count;
+        else
+            list.push_back({first, count});
+        bits >>= count;
+        first += count;
+    }
+}
+
 } // namespace
 
 NeighbourList::NeighbourList(double support, double skin, double spacing, int dimensions)
@@ -166,7 +189,6 @@ void NeighbourList::find_neighbours(const Particles& particles)
 #pragma omp for schedule(static)
         for (Index c = 0; c < count; ++c)
             boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
-        std::vector<Index> candidates;
 #pragma omp for schedule(dynamic)
         for (Index chunk = 0; chunk < chunk_count; ++chunk) {
             auto& found = chunks_[static_cast<std::size_t>(chunk)];
@@ -174,9 +196,13 @@ void NeighbourList::find_neighbours(const Particles& particles)
             const Index end = std::min(count, (chunk + 1) * clusters_per_chunk);
             for (Index c = chunk * clusters_per_chunk; c < end; ++c) {
                 const std::size_t begin = found.size();
-                list_cluster(particles, c, candidates, found);
-                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(found.size() - begin)};
+                list_cluster(particles, c, found);
+                const std::span<const Run> runs{found.data() + begin, found.size() - begin};
+                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(runs.size()),
+                                                        neighbours_in(runs)};
             }
+            // Growing by doubling leaves up to half of it unused.
+            if (found.capacity() > found.size() + found.size() / 8) found.shrink_to_fit();
         }
     }
 }
@@ -218,8 +244,7 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
 
 /// Three sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against
 /// that box, then each that is left against its particles, which leaves out the corners of the box.
-void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
-                                 std::vector<Index>& found) const
+void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const
 {
     const double reach = support_ + skin_;
     const auto& position = particles.position;
@@ -230,17 +255,6 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
     const double margin = sizeof(Real) == 4 ? 1e-5 : 1e-14;
     const double reach_squared = reach * reach * (1.0 + margin);
 
-    candidates.clear();
-    for_each_cluster_near(box, [&](Index d) {
-        const Cluster& near = clusters_[static_cast<std::size_t>(d)];
-        const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
-                                 outside(lanes_from(position.y, near.first, middle.y), half.y),
-                                 outside(lanes_from(position.z, near.first, middle.z), half.z)};
-        unsigned within = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u);
-        for (; within != 0; within &= within - 1)
-            candidates.push_back(near.first + std::countr_zero(within));
-    });
-
     VectorLanes here{lanes_from(position.x, cluster.first, middle.x), lanes_from(position.y, cluster.first, middle.y),
                      lanes_from(position.z, cluster.first, middle.z)};
     for (int lane = cluster.count; lane < lane_count; ++lane) {
@@ -248,15 +262,20 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
         here.y.set(lane, here.y[0]);
         here.z.set(lane, here.z[0]);
     }
-    const std::size_t before = found.size();
-    found.resize(before + candidates.size());
-    Index* end = found.data() + before;
-    for (const Index j : candidates) {
-        const VectorLanes offset = here - broadcast(position[j] - middle);
-        *end = j;
-        end += set_lanes(dot(offset, offset) < reach_squared) != 0 ? 1 : 0;
-    }
-    found.resize(static_cast<std::size_t>(end - found.data()));
+    const std::size_t begin = found.size();
+    for_each_cluster_near(box, [&](Index d) {
+        const Cluster& near = clusters_[static_cast<std::size_t>(d)];
+        const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
+                                 outside(lanes_from(position.y, near.first, middle.y), half.y),
+                                 outside(lanes_from(position.z, near.first, middle.z), half.z)};
+        unsigned near_box = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u), near_one = 0;
+        for (; near_box != 0; near_box &= near_box - 1) {
+            const int bit = std::countr_zero(near_box);
+            const VectorLanes offset = here - broadcast(position[near.first + bit] - middle);
+            near_one |= (set_lanes(dot(offset, offset) < reach_squared) != 0 ? 1u : 0u) << bit;
+        }
+        append_runs(found, begin, near.first, near_one);
+    });
 }
 
 bool NeighbourList::outdated(const Particles& particles, std::span<const Index> moving) const
@@ -266,7 +285,7 @@ bool NeighbourList::outdated(const Particles& particles, std::span<const Index> 
     bool moved = false;
     const auto& position = particles.position;
     const std::size_t count = moving.size();
-#pragma omp parallel for schedule(static) reduction(|| : moved)
+#pragma omp parallel for schedule(static) reduction(|| : moved) if (count > 4096)
     for (std::size_t m = 0; m < count; ++m) {
         const auto k = static_cast<std::size_t>(moving[m]);
         const double dx = position.x[k] - built_x_[k], dy = position.y[k] - built_y_[k],
@@ -331,20 +350,19 @@ bool NeighbourList::refresh(const Particles& particles, std::span<const Index> m
     const std::vector<Index> concerned = clusters_near(moved);
     if (concerned.size() > most_clusters) return false;
 
-#pragma omp parallel
+#pragma omp parallel if (concerned.size() > 32)
     {
-        std::vector<Index> candidates;
 #pragma omp for schedule(dynamic, 8)
         for (std::size_t k = 0; k < concerned.size(); ++k) {
             const auto c = static_cast<std::size_t>(concerned[k]);
             own_lists_[c].clear();
-            list_cluster(particles, concerned[k], candidates, own_lists_[c]);
+            list_cluster(particles, concerned[k], own_lists_[c]);
         }
     }
     double built = 0.0, now = 0.0;
     for (const Index c : moved) {
-        built += static_cast<double>(ranges_[static_cast<std::size_t>(c)].count);
-        now += static_cast<double>(own_lists_[static_cast<std::size_t>(c)].size());
+        built += ranges_[static_cast<std::size_t>(c)].neighbours;
+        now += neighbours_in(own_lists_[static_cast<std::size_t>(c)]);
     }
     if (now > greatest_growth * built) return false;
 
@@ -369,7 +387,7 @@ std::size_t NeighbourList::bytes() const
                         cluster_of_.size() * sizeof(Index);
     for (const auto* lists : {&chunks_, &own_lists_})
         for (const auto& list : *lists)
-            total += list.capacity() * sizeof(Index);
+            total += list.capacity() * sizeof(Run);
     return total + 3 * built_x_.size() * sizeof(double);
 }
 

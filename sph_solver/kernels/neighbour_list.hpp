@@ -16,6 +16,14 @@ struct Cluster
     Index count;
 };
 
+/// Particles one after the other in memory: neighbours mostly come so, a piece of a column at a time, and a list of
+/// runs is a third as long as one of particles.
+struct Run
+{
+    Index first;
+    Index count;
+};
+
 /// Orders particles in vertical columns and keeps, for each cluster, the particles within
 /// support + skin of any of them. A list stays valid while no particle has moved further than skin/2 since it was
 /// built: two particles that were further apart than support + skin then are still further apart than the support.
@@ -39,12 +47,22 @@ public:
     Index cluster_count() const { return static_cast<Index>(clusters_.size()); }
     const Cluster& cluster(Index c) const { return clusters_[static_cast<std::size_t>(c)]; }
     Index cluster_of(Index particle) const { return cluster_of_[static_cast<std::size_t>(particle)]; }
-    std::span<const Index> neighbours(Index c) const
+    /// The particles near a cluster as runs, none of them twice; for_each_neighbour() goes through them.
+    std::span<const Run> runs(Index c) const
     {
         const auto& range = ranges_[static_cast<std::size_t>(c)];
         if (range.chunk == own_list) return own_lists_[static_cast<std::size_t>(c)];
         return {chunks_[static_cast<std::size_t>(range.chunk)].data() + range.begin,
                 static_cast<std::size_t>(range.count)};
+    }
+    /// Whether a pass may leave out clusters for which its terms have nothing to do.
+    bool skips_idle() const { return skips_idle_; }
+    void skip_nothing() { skips_idle_ = false; }
+    template <class Visit> void for_each_neighbour(Index c, const Visit& visit) const
+    {
+        for (const Run& run : runs(c))
+            for (Index j = run.first; j < run.first + run.count; ++j)
+                visit(j);
     }
     std::uint64_t builds() const { return builds_; }
     std::uint64_t refreshes() const { return refreshes_; }
@@ -60,6 +78,7 @@ private:
         Index chunk; ///< own_list where refresh() has given the cluster a list of its own
         std::size_t begin;
         Index count;
+        Index neighbours; ///< when the list was built
     };
     struct Box
     {
@@ -70,8 +89,7 @@ private:
     void sort_into_columns(Particles& particles);
     void cut_clusters(const std::vector<Index>& first_of_column);
     void find_neighbours(const Particles& particles);
-    void list_cluster(const Particles& particles, Index c, std::vector<Index>& candidates,
-                      std::vector<Index>& found) const;
+    void list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const;
     void spread_loose_over_columns();
     std::vector<Index> clusters_near(std::span<const Index> moved) const;
     template <class Visit> void for_each_cluster_near(const Box& box, const Visit& visit) const;
@@ -86,12 +104,13 @@ private:
     std::vector<Cluster> clusters_;
     std::vector<Box> boxes_;
     std::vector<Range> ranges_;
-    std::vector<std::vector<Index>> chunks_;
+    std::vector<std::vector<Run>> chunks_;
     Array built_x_, built_y_, built_z_;
     std::uint64_t builds_ = 0, refreshes_ = 0;
+    bool skips_idle_ = true;
 
     // Clusters that have moved since the build: no longer in the column, nor at the height, that they were sorted to.
-    std::vector<std::vector<Index>> own_lists_;
+    std::vector<std::vector<Run>> own_lists_;
     std::vector<unsigned char> is_loose_;
     std::vector<Index> loose_;
     std::vector<Index> first_loose_of_column_, loose_of_column_; ///< those whose box reaches into a column

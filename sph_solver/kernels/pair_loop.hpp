@@ -16,11 +16,10 @@ namespace cupel::inline CUPEL_ENGINE
 /// What the loop knows of a pair (i, j), for a cluster of particles i at once.
 struct Pair
 {
-    VectorLanes offset;     ///< x_i − x_j, m
-    Lanes distance;         ///< |x_i − x_j|, m; never zero
-    Lanes inverse_distance; ///< 1/m
-    Lanes kernel;           ///< W_ij
-    Lanes gradient_over_r;  ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
+    VectorLanes offset;    ///< x_i − x_j, m
+    Lanes square;          ///< |x_i − x_j|², m²; never zero
+    Lanes kernel;          ///< W_ij
+    Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
 
     VectorLanes gradient() const { return gradient_over_r * offset; }
 };
@@ -71,7 +70,7 @@ void release_pass_memory();
 /// on the number of threads.
 ///
 /// Where most clusters take part, what neighbours are asked for is gathered once for the whole pass; where few do, it
-/// is looked up as they meet it. The numbers are the same.
+/// is looked up as they meet it. In double the numbers are the same, in float to its round-off.
 template <class Kernel, class... Terms>
 void for_each_pair(const NeighbourList& list, const Particles& particles, const Kernel& kernel,
                    std::span<const Index> clusters, const Terms&... terms)
@@ -80,51 +79,59 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     const auto count = static_cast<Index>(clusters.size());
     const double tiny = 1e-18 * list.support() * list.support();
     const Places places(list, particles.position);
-    const auto look_up = [&](Index j) { return Record{places(j), {far_of(terms, j)...}}; };
-
-    const auto sum_up = [&](const auto& neighbour) {
-#pragma omp parallel for schedule(dynamic, 16)
-        for (Index k = 0; k < count; ++k) {
-            const Index c = clusters[static_cast<std::size_t>(k)];
-            const Cluster cluster = list.cluster(c);
-            if ((terms.idle(cluster) && ...)) continue;
-            const PlaceLanes here = places.lanes(cluster.first);
-            const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
-            std::tuple<typename Terms::Sum...> sums{};
-            for (const Index j : list.neighbours(c)) {
-                const Record& other = neighbour(j);
-                Pair pair;
-                pair.offset = places.offset(here, other.place);
-                const Lanes square = dot(pair.offset, pair.offset) + tiny;
-                pair.inverse_distance = reciprocal_square_root(square);
-                pair.distance = square * pair.inverse_distance;
-                const auto w = kernel(pair.distance, pair.inverse_distance);
-                pair.kernel = w.value;
-                pair.gradient_over_r = w.gradient_over_r;
-                [&]<std::size_t... n>(std::index_sequence<n...>)
+    const auto sum_up = [&](const auto& place, const auto& neighbour) {
+        // A few clusters are done sooner than threads are woken.
+        const Index share = count > 512 ? 16 : 4;
+#pragma omp parallel if (count > 16)
+        {
+            Surroundings surroundings(places);
+#pragma omp for schedule(dynamic, share)
+            for (Index k = 0; k < count; ++k) {
+                const Index c = clusters[static_cast<std::size_t>(k)];
+                const Cluster cluster = list.cluster(c);
+                if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+                const auto runs = list.runs(c);
+                surroundings.centre_on(cluster.first, runs, place);
+                const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
+                std::tuple<typename Terms::Sum...> sums{};
+                for (const Run& run : runs)
+                    for (Index j = run.first; j < run.first + run.count; ++j) {
+                        const Record& other = neighbour(j);
+                        Pair pair;
+                        pair.offset = surroundings.next_offset(other.place);
+                        pair.square = dot(pair.offset, pair.offset) + tiny;
+                        const auto w = kernel.of_square(pair.square);
+                        pair.kernel = w.value;
+                        pair.gradient_over_r = w.gradient_over_r;
+                        [&]<std::size_t... t>(std::index_sequence<t...>)
+                        {
+                            (terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums)), ...);
+                        }
+                        (std::index_sequence_for<Terms...>{});
+                    }
+                [&]<std::size_t... t>(std::index_sequence<t...>)
                 {
-                    (terms.add(std::get<n>(near), std::get<n>(other.far), pair, std::get<n>(sums)), ...);
+                    (terms.store(cluster, std::get<t>(near), std::get<t>(sums)), ...);
                 }
                 (std::index_sequence_for<Terms...>{});
             }
-            [&]<std::size_t... n>(std::index_sequence<n...>)
-            {
-                (terms.store(cluster, std::get<n>(near), std::get<n>(sums)), ...);
-            }
-            (std::index_sequence_for<Terms...>{});
         }
     };
 
     if (2 * count < list.cluster_count()) {
-        sum_up(look_up);
+        sum_up([&](Index j) { return particles.position[j]; },
+               [&](Index j) {
+                   return Record{places(j), {far_of(terms, j)...}};
+               });
         return;
     }
     const Index all = particles.count();
     auto* records = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
 #pragma omp parallel for schedule(static)
     for (Index j = 0; j < all; ++j)
-        new (records + j) Record(look_up(j));
-    sum_up([records](Index j) -> const Record& { return records[j]; });
+        new (records + j) Record{places(j), {far_of(terms, j)...}};
+    sum_up([records](Index j) -> const Place& { return records[j].place; },
+           [records](Index j) -> const Record& { return records[j]; });
 }
 
 /// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.

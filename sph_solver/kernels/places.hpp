@@ -1,6 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
 
 #include "kernels/field_lanes.hpp"
 #include "kernels/neighbour_list.hpp"
@@ -17,12 +21,6 @@ struct Place
 {
     std::int32_t x, y, z;
 };
-struct PlaceLanes
-{
-    using Register = std::int32_t __attribute__((vector_size(64)));
-    Register x, y, z;
-};
-
 class Places
 {
 public:
@@ -35,29 +33,13 @@ public:
         quantum_ = reach / 2147483648.0;
         quanta_ = 1.0 / quantum_;
     }
+    double quantum() const { return quantum_; }
+    const VectorField& position() const { return position_; }
 
     Place operator()(Index i) const
     {
         const Vector p = position_[i] - middle_;
         return {rounded(p.x), rounded(p.y), rounded(p.z)};
-    }
-    PlaceLanes lanes(Index first) const
-    {
-        PlaceLanes here{};
-        for (int lane = 0; lane < lane_count; ++lane) {
-            const Place place = (*this)(first + lane);
-            here.x[lane] = place.x;
-            here.y[lane] = place.y;
-            here.z[lane] = place.z;
-        }
-        return here;
-    }
-    VectorLanes offset(const PlaceLanes& here, const Place& there) const
-    {
-        const auto along = [&](const PlaceLanes::Register& a, std::int32_t b) {
-            return quantum_ * Lanes(__builtin_convertvector(a - b, Lanes::Register));
-        };
-        return {along(here.x, there.x), along(here.y, there.y), along(here.z, there.z)};
     }
 
 private:
@@ -71,10 +53,82 @@ private:
     double quantum_ = 0.0, quanta_ = 0.0;
 };
 
+/// Offsets between a cluster and its neighbours, one neighbour after the other. All are first taken relative to one of
+/// the cluster's own, and are then near enough for float.
+class Surroundings
+{
+public:
+    explicit Surroundings(const Places& places) : places_(places), quantum_(static_cast<float>(places.quantum())) {}
+
+    /// place(j) gives a neighbour's, as a Place or as the position itself.
+    template <class PlaceOf> void centre_on(Index first, std::span<const Run> runs, const PlaceOf& place)
+    {
+        if constexpr (std::is_convertible_v<decltype(place(first)), Place>) {
+            const Quanta origin = loaded(places_(first));
+            take(
+                first, runs, [&](Index i) { return relative(places_(i), origin); },
+                [&](Index j) { return relative(place(j), origin); });
+        }
+        else {
+            const Vector origin = places_.position()[first];
+            const auto relative_position = [&](Index j) {
+                const Vector offset = places_.position()[j] - origin;
+                return Near{real(offset.x), real(offset.y), real(offset.z), 0};
+            };
+            take(first, runs, relative_position, relative_position);
+        }
+    }
+    /// To the neighbours in the order of the runs.
+    VectorLanes next_offset(const Place&)
+    {
+        const float* near = next_;
+        next_ += 4;
+        return here_ - VectorLanes{near[0], near[1], near[2]};
+    }
+
+private:
+    using Quanta = std::int32_t __attribute__((vector_size(16)));
+    using Near = float __attribute__((vector_size(16)));
+
+    static Quanta loaded(const Place& place) { return Quanta{place.x, place.y, place.z, 0}; }
+    Near relative(const Place& place, const Quanta& origin) const
+    {
+        return quantum_ * __builtin_convertvector(loaded(place) - origin, Near);
+    }
+    template <class Own, class Others>
+    void take(Index first, std::span<const Run> runs, const Own& own, const Others& others)
+    {
+        Lanes::Register x{}, y{}, z{};
+        for (int lane = 0; lane < lane_count; ++lane) {
+            const Near near = own(first + lane);
+            x[lane] = near[0];
+            y[lane] = near[1];
+            z[lane] = near[2];
+        }
+        here_ = {Lanes(x), Lanes(y), Lanes(z)};
+        std::size_t count = 0;
+        for (const Run& run : runs)
+            count += static_cast<std::size_t>(run.count);
+        if (near_.size() < 4 * count) near_.resize(4 * count);
+        float* next = near_.data();
+        for (const Run& run : runs)
+            for (Index j = run.first; j < run.first + run.count; ++j, next += 4) {
+                const Near near = others(j);
+                std::memcpy(next, &near, sizeof near);
+            }
+        next_ = near_.data();
+    }
+
+    const Places& places_;
+    float quantum_;
+    VectorLanes here_;
+    const float* next_ = nullptr;
+    std::vector<float> near_; ///< x, y, z and nothing, of each neighbour in turn
+};
+
 #else
 
 using Place = Vector;
-using PlaceLanes = VectorLanes;
 
 /// Positions as the pair loop sees them: in double they are what they are.
 class Places
@@ -83,11 +137,27 @@ public:
     Places(const NeighbourList&, const VectorField& position) : position_(position) {}
 
     Place operator()(Index i) const { return position_[i]; }
-    PlaceLanes lanes(Index first) const { return cupel::lanes(position_, first); }
-    VectorLanes offset(const PlaceLanes& here, const Place& there) const { return here - broadcast(there); }
+    const VectorField& position() const { return position_; }
 
 private:
     const VectorField& position_;
+};
+
+/// Offsets between a cluster and its neighbours, one neighbour after the other.
+class Surroundings
+{
+public:
+    explicit Surroundings(const Places& places) : places_(places) {}
+
+    template <class PlaceOf> void centre_on(Index first, std::span<const Run>, const PlaceOf&)
+    {
+        here_ = lanes(places_.position(), first);
+    }
+    VectorLanes next_offset(const Place& place) const { return here_ - broadcast(place); }
+
+private:
+    const Places& places_;
+    VectorLanes here_;
 };
 
 #endif

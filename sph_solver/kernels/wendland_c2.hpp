@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "kernels/smoothing_kernel.hpp"
@@ -21,24 +22,25 @@ public:
           factor_(dimensions == 2
                       ? 7.0 / (4.0 * std::numbers::pi * smoothing_length * smoothing_length)
                       : 21.0 / (16.0 * std::numbers::pi * smoothing_length * smoothing_length * smoothing_length)),
-          slope_factor_(-20.0 * factor_ * half_inverse_h_ * half_inverse_h_)
+          scale_(-std::cbrt(20.0 * factor_ * half_inverse_h_ * half_inverse_h_)),
+          value_factor_(factor_ / (scale_ * scale_ * scale_ * scale_))
     {}
 
     double smoothing_length() const { return 0.5 * support_; }
     double support() const { return support_; }
 
-    /// Distance r in m and its reciprocal, which this kernel does not need; zero beyond the support.
-    template <class Scalar> KernelValue<Scalar> operator()(const Scalar& r, const Scalar&) const
+    /// Of r² in m², above zero; zero beyond the support. (1 − q/2)₊ is scaled so that its cube is (1/r) dW/dr.
+    template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
     {
-        const Scalar half_q = r * half_inverse_h_;
-        const Scalar t = maximum(1.0 - half_q, Scalar{});
+        const Scalar r = root_of_positive(square);
+        const Scalar t = minimum(scale_ - (scale_ * half_inverse_h_) * r, Scalar{});
         const Scalar t2 = t * t;
-        return {(factor_ * t2) * (t2 * (1.0 + 4.0 * half_q)), (slope_factor_ * t) * t2};
+        return {(value_factor_ * t2) * (t2 * (1.0 + (4.0 * half_inverse_h_) * r)), t2 * t};
     }
-    KernelValue<double> operator()(double r) const { return (*this)(r, 0.0); }
+    KernelValue<double> operator()(double r) const { return of_square(maximum(r * r, 1e-30 * support_ * support_)); }
 
 private:
-    double half_inverse_h_, support_, factor_, slope_factor_;
+    double half_inverse_h_, support_, factor_, scale_, value_factor_;
 };
 
 } // namespace cupel

@@ -91,24 +91,48 @@ inline Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no)
 {
     return Lanes(mask.bits ? yes.values() : no.values());
 }
+#if defined(__AVX512F__)
+// Where the compiler, minding the signs of zeros, would take two instructions for one, and for the machine's estimates.
+inline __m512d doubles(const Lanes& a)
+{
+    return reinterpret_cast<__m512d>(a.values());
+}
+inline __m512 floats(const Lanes& a)
+{
+    return reinterpret_cast<__m512>(a.values());
+}
+inline Lanes lanes_in(__m512d a)
+{
+    return Lanes(reinterpret_cast<Lanes::Register>(a));
+}
+inline Lanes lanes_in(__m512 a)
+{
+    return Lanes(reinterpret_cast<Lanes::Register>(a));
+}
 inline Lanes maximum(const Lanes& a, const Lanes& b)
 {
-#if defined(__AVX512F__)
-    // One instruction, where the compiler, minding zeros' signs, takes two.
     if constexpr (sizeof(Real) == 8)
-        return Lanes(reinterpret_cast<Lanes::Register>(
-            _mm512_maskz_max_pd(0xff, reinterpret_cast<__m512d>(a.values()), reinterpret_cast<__m512d>(b.values()))));
+        return lanes_in(_mm512_maskz_max_pd(0xff, doubles(a), doubles(b)));
     else
-        return Lanes(reinterpret_cast<Lanes::Register>(
-            _mm512_maskz_max_ps(0xffff, reinterpret_cast<__m512>(a.values()), reinterpret_cast<__m512>(b.values()))));
+        return lanes_in(_mm512_maskz_max_ps(0xffff, floats(a), floats(b)));
+}
+inline Lanes minimum(const Lanes& a, const Lanes& b)
+{
+    if constexpr (sizeof(Real) == 8)
+        return lanes_in(_mm512_maskz_min_pd(0xff, doubles(a), doubles(b)));
+    else
+        return lanes_in(_mm512_maskz_min_ps(0xffff, floats(a), floats(b)));
+}
 #else
+inline Lanes maximum(const Lanes& a, const Lanes& b)
+{
     return select(a > b, a, b);
-#endif
 }
 inline Lanes minimum(const Lanes& a, const Lanes& b)
 {
     return select(a < b, a, b);
 }
+#endif
 
 inline Lanes square_root(const Lanes& a)
 {
@@ -118,27 +142,64 @@ inline Lanes square_root(const Lanes& a)
     return Lanes(root);
 }
 
-/// 1/√a for a > 0, to the last bit or two. Newton's steps on the machine's estimate are faster than its square root.
-inline Lanes reciprocal_square_root(const Lanes& a)
-{
 #if defined(__AVX512F__)
-    // The estimate has 14 bits; a step doubles them: one for float, two for double.
-    if constexpr (sizeof(Real) == 4) {
-        const Lanes estimate(
-            reinterpret_cast<Lanes::Register>(_mm512_maskz_rsqrt14_ps(0xffff, reinterpret_cast<__m512>(a.values()))));
-        return estimate * (1.5 - (0.5 * a) * estimate * estimate);
+/// The machine's estimate of 1/√a (14 bits) and what is left to correct: with s = a e and y = 1 − s e,
+///
+///   1/√a = e (1 − y)^(−½) = e + e c,   √a = s + s c,   c = y/2 + 3/8 y² + 5/16 y³ + …
+///
+/// One term is enough for float, three for double, and faster than the machine's own square root.
+struct RootEstimate
+{
+    Lanes estimate, product, correction;
+
+    explicit RootEstimate(const Lanes& a)
+    {
+        if constexpr (sizeof(Real) == 8)
+            estimate = lanes_in(_mm512_maskz_rsqrt14_pd(0xff, doubles(a)));
+        else
+            estimate = lanes_in(_mm512_maskz_rsqrt14_ps(0xffff, floats(a)));
+        product = a * estimate;
+        const Lanes y = 1.0 - product * estimate;
+        correction = sizeof(Real) == 8 ? y * (0.5 + y * (0.375 + 0.3125 * y)) : 0.5 * y;
     }
-    else {
-        Lanes estimate(
-            reinterpret_cast<Lanes::Register>(_mm512_maskz_rsqrt14_pd(0xff, reinterpret_cast<__m512d>(a.values()))));
-        const Lanes half = 0.5 * a;
-        estimate = estimate * (1.5 - half * estimate * estimate);
-        return estimate * (1.5 - half * estimate * estimate);
-    }
-#else
-    return 1.0 / square_root(a);
-#endif
+};
+inline Lanes reciprocal_root_of_positive(const Lanes& a)
+{
+    const RootEstimate root(a);
+    return root.estimate + root.estimate * root.correction;
 }
+inline Lanes root_of_positive(const Lanes& a)
+{
+    const RootEstimate root(a);
+    return root.product + root.product * root.correction;
+}
+/// 1/a to the last bit or two, a neither zero nor beyond what its reciprocal can hold.
+inline Lanes reciprocal(const Lanes& a)
+{
+    Lanes x;
+    if constexpr (sizeof(Real) == 8)
+        x = lanes_in(_mm512_maskz_rcp14_pd(0xff, doubles(a)));
+    else
+        x = lanes_in(_mm512_maskz_rcp14_ps(0xffff, floats(a)));
+    const Lanes y = 1.0 - a * x;
+    return sizeof(Real) == 8 ? x + x * (y + y * (y * (1.0 + y))) : x + x * y;
+}
+#else
+/// 1/√a, √a and 1/a to the last bit or two, for a > 0.
+inline Lanes reciprocal_root_of_positive(const Lanes& a)
+{
+    return 1.0 / square_root(a);
+}
+inline Lanes root_of_positive(const Lanes& a)
+{
+    return square_root(a);
+}
+inline Lanes reciprocal(const Lanes& a)
+{
+    return 1.0 / a;
+}
+#endif
+
 /// One bit for each lane, the first lowest.
 inline unsigned set_lanes(const LaneMask& mask)
 {

@@ -55,6 +55,18 @@ inline double maximum(double a, double b)
 {
     return a > b ? a : b;
 }
+inline double minimum(double a, double b)
+{
+    return a < b ? a : b;
+}
+inline double root_of_positive(double a)
+{
+    return std::sqrt(a);
+}
+inline double reciprocal_root_of_positive(double a)
+{
+    return 1.0 / std::sqrt(a);
+}
 inline double norm(const VectorOf<double>& a)
 {
     return std::sqrt(dot(a, a));

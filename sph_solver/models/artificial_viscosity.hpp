@@ -38,7 +38,7 @@ struct ArtificialViscosity
         if (mobility.weight[j] == 0.0) return;
         const double h = smoothing_length;
         const Lanes approach = minimum(dot(i.velocity - broadcast(velocity[j]), pair.offset), Lanes{});
-        const Lanes phi = h * approach / (pair.distance * pair.distance + 0.01 * h * h);
+        const Lanes phi = h * approach / (pair.square + 0.01 * h * h);
         const Lanes viscous_pressure =
             2.0 * (quadratic * phi * phi - linear * sound_speed * phi) / (i.density + density[j]);
         sum.force -= (i.mass * mass[j] * viscous_pressure * pair.gradient_over_r) * pair.offset;

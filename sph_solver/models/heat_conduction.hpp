@@ -34,7 +34,7 @@ struct HeatConduction
     };
     struct Far
     {
-        Real temperature, conductivity, weight; ///< weight: 4 k_j V_j C_j
+        Real temperature, conductivity, weight; ///< weight: 4 k_j V_j C_j; 0 for walls, of which nothing is stored
     };
     struct Sum
     {
@@ -55,8 +55,8 @@ struct HeatConduction
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (!(j.conductivity > 0)) return;
-        const Lanes mean = j.weight * i.conductivity / (i.conductivity + j.conductivity);
+        // Between walls it is no number, and not stored.
+        const Lanes mean = j.weight * i.conductivity * reciprocal(i.conductivity + j.conductivity);
         sum.power += mean * (i.temperature - j.temperature) * pair.gradient_over_r;
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const

@@ -14,6 +14,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// What has no solid beside it flies, however small it is.
 struct MoltenNeighbours
 {
+    Mobility mobility;
     const ScalarField& liquid_fraction;
     const std::vector<Kind>& kind;
     double molten_above;     ///< liquid fraction from which metal flows, 1
@@ -34,7 +35,9 @@ struct MoltenNeighbours
 
     bool idle(const Cluster& cluster) const
     {
-        return none_in(cluster, [&](Index i) { return liquid_fraction[i] >= molten_above; });
+        // What moves already goes on moving, whatever is around it.
+        return none_in(cluster,
+                       [&](Index i) { return mobility.weight[i] == 0.0 && liquid_fraction[i] >= molten_above; });
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const
@@ -44,7 +47,7 @@ struct MoltenNeighbours
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes one = select(pair.distance < counting_reach * smoothing_length, 1.0, 0.0);
+        const Lanes one = select(counted(pair, smoothing_length), 1.0, 0.0);
         sum.molten += j.molten * one;
         sum.standing += j.standing * one;
     }

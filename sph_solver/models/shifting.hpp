@@ -140,6 +140,11 @@ struct WallShift
 
     struct Near
     {};
+    struct Far
+    {
+        Real liquid; ///< 1 or 0
+        VectorOf<Real> shift;
+    };
     struct Sum
     {
         Lanes weight{};
@@ -148,11 +153,12 @@ struct WallShift
 
     bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(mobility.weight[j]), real(shift[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0) return;
+        if (j.liquid == 0) return;
         sum.weight += pair.kernel;
-        sum.shift += pair.kernel * broadcast(shift[j]);
+        sum.shift += pair.kernel * broadcast(j.shift);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -85,7 +85,7 @@ struct ColourGradient
         sum.gradient -= (j.volume * (j.colour - i.colour) * pair.gradient_over_r) * pair.offset;
         sum.colour += (j.volume * j.colour) * pair.kernel;
         sum.weight += j.volume * pair.kernel;
-        sum.companions += select(pair.distance < counting_reach * smoothing_length, 1.0, 0.0);
+        sum.companions += select(counted(pair, smoothing_length), 1.0, 0.0);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -106,6 +106,10 @@ struct NormalSmoothing
 
     struct Near
     {};
+    struct Far
+    {
+        VectorOf<Real> weighted_normal;
+    };
     struct Sum
     {
         VectorLanes normal{};
@@ -116,10 +120,10 @@ struct NormalSmoothing
         return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(std::max(0.0, surface.delta[j]) * surface.normal[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const double delta_j = surface.delta[j];
-        if (delta_j > 0.0) sum.normal += pair.kernel * broadcast(delta_j * surface.normal[j]);
+        sum.normal += pair.kernel * broadcast(j.weighted_normal);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -142,6 +146,10 @@ struct SurfaceNeighbourhood
 
     struct Near
     {};
+    struct Far
+    {
+        Real at_surface; ///< 1 or 0
+    };
     struct Sum
     {
         Lanes found{};
@@ -154,10 +162,8 @@ struct SurfaceNeighbourhood
         });
     }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
-    {
-        if (mobility.weight[j] != 0.0 && surface.in_band[j] != 0.0) sum.found += pair.kernel;
-    }
+    Far far(Index j) const { return {real(mobility.weight[j] * surface.in_band[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const { sum.found += j.at_surface * pair.kernel; }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         // raw_curvature is free at this stage and keeps the mark until the curvature itself is fitted.
@@ -185,6 +191,11 @@ struct TangentPlaneCurvature
     {
         VectorLanes normal, tangent_1, tangent_2;
     };
+    struct Far
+    {
+        Real weight; ///< −V_j δ_j; 0 where j takes no part
+        VectorOf<Real> normal;
+    };
     struct Sum
     {
         Lanes xx{}, xy{}, yy{};               // Σ w Δx ⊗ Δx
@@ -204,15 +215,19 @@ struct TangentPlaneCurvature
         const LaneMask along_x = normal.x * normal.x > 0.49;
         const VectorLanes start{select(along_x, 0.0, 1.0), select(along_x, 1.0, 0.0), 0.0};
         VectorLanes tangent = cross(normal, start);
-        tangent = reciprocal_square_root(dot(tangent, tangent)) * tangent;
+        tangent = reciprocal_root_of_positive(dot(tangent, tangent)) * tangent;
         return {normal, tangent, cross(normal, tangent)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double delta_j = surface.delta[j];
-        if (!(delta_j >= smallest_delta)) return;
-        const Lanes weight = (-volume[j] * delta_j) * pair.gradient_over_r;
-        const VectorLanes change = broadcast(surface.normal[j]) - i.normal;
+        const double delta = surface.delta[j];
+        return {real(delta >= smallest_delta ? -volume[j] * delta : 0.0), real(surface.normal[j])};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        if (j.weight == 0) return;
+        const Lanes weight = j.weight * pair.gradient_over_r;
+        const VectorLanes change = broadcast(j.normal) - i.normal;
         const Lanes x1 = -dot(pair.offset, i.tangent_1), x2 = -dot(pair.offset, i.tangent_2);
         const Lanes n1 = dot(change, i.tangent_1), n2 = dot(change, i.tangent_2);
         sum.xx += weight * x1 * x1;
@@ -257,6 +272,10 @@ struct CurvatureSmoothing
 
     struct Near
     {};
+    struct Far
+    {
+        Real weight, weighted_curvature;
+    };
     struct Sum
     {
         Lanes curvature{}, weight{};
@@ -267,11 +286,15 @@ struct CurvatureSmoothing
         return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double weight_j = surface.curvature_valid[j] * surface.delta[j];
-        sum.curvature += (weight_j * surface.raw_curvature[j]) * pair.kernel;
-        sum.weight += weight_j * pair.kernel;
+        const double weight = surface.curvature_valid[j] * surface.delta[j];
+        return {real(weight), real(weight * surface.raw_curvature[j])};
+    }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        sum.curvature += j.weighted_curvature * pair.kernel;
+        sum.weight += j.weight * pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -25,6 +25,10 @@ struct SurfaceTemperature
 
     struct Near
     {};
+    struct Far
+    {
+        Real volume, volume_temperature; ///< 0 for walls
+    };
     struct Sum
     {
         Lanes weight{}, temperature{};
@@ -35,12 +39,15 @@ struct SurfaceTemperature
         return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface_delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return;
-        const double volume_j = volume[j];
-        sum.weight += volume_j * pair.kernel;
-        sum.temperature += (volume_j * temperature[j]) * pair.kernel;
+        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return {0, 0};
+        return {real(volume[j]), real(volume[j] * temperature[j])};
+    }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        sum.weight += j.volume * pair.kernel;
+        sum.temperature += j.volume_temperature * pair.kernel;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

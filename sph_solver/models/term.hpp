@@ -9,6 +9,10 @@ namespace cupel::inline CUPEL_ENGINE
 /// Where neighbours are counted: within 2.12 smoothing lengths. A lattice (h = Δx) has neighbours at 2 and at √5
 /// spacings; a limit in between counts the same 33 (13 in two dimensions) whatever round-off does to their distance.
 inline constexpr double counting_reach = 2.12;
+inline LaneMask counted(const Pair& pair, double smoothing_length)
+{
+    return pair.square < counting_reach * counting_reach * smoothing_length * smoothing_length;
+}
 /// What is counted so in a full lattice, the particle itself included.
 constexpr double lattice_companions(int dimensions)
 {

@@ -31,6 +31,11 @@ struct WallExtrapolation
 
     struct Near
     {};
+    struct Far
+    {
+        Real liquid, pressure, density; ///< liquid: 1 or 0
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         Lanes weight{}, pressure{};
@@ -39,14 +44,17 @@ struct WallExtrapolation
 
     bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        const double liquid = mobility.weight[j];
-        if (liquid == 0.0) return;
+        return {real(mobility.weight[j]), real(pressure[j]), real(density[j]), real(velocity[j])};
+    }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        if (j.liquid == 0) return;
         sum.weight += pair.kernel;
-        sum.pressure += pressure[j] * pair.kernel;
-        sum.head += (density[j] * pair.kernel) * pair.offset;
-        sum.velocity += pair.kernel * broadcast(velocity[j]);
+        sum.pressure += j.pressure * pair.kernel;
+        sum.head += (j.density * pair.kernel) * pair.offset;
+        sum.velocity += pair.kernel * broadcast(j.velocity);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -79,10 +79,10 @@ public:
         for (const Index c : neighbourhood_.all())
             for (Index i = neighbourhood_.list().cluster(c).first;
                  i < neighbourhood_.list().cluster(c).first + neighbourhood_.list().cluster(c).count; ++i)
-                for (const Index j : neighbourhood_.list().neighbours(c)) {
+                neighbourhood_.list().for_each_neighbour(c, [&](Index j) {
                     const Vector offset = particles_.position[i] - particles_.position[j];
                     pairs += i != j && dot(offset, offset) < reach ? 1.0 : 0.0;
-                }
+                });
         return pairs / static_cast<double>(particles_.count());
     }
 

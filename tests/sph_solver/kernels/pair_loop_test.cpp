@@ -129,7 +129,8 @@ TEST(NeighbourList, StaysCompleteUntilAParticleHasMovedHalfTheSkin)
         particles.position.x[static_cast<std::size_t>(i)] += (i % 2 ? 0.499 : -0.499) * skin;
     EXPECT_FALSE(list.outdated(particles, moving));
     for (Index c = 0; c < list.cluster_count(); ++c) {
-        const auto near = list.neighbours(c);
+        std::vector<Index> near;
+        list.for_each_neighbour(c, [&](Index j) { near.push_back(j); });
         for (Index i = list.cluster(c).first; i < list.cluster(c).first + list.cluster(c).count; ++i)
             for (Index j = 0; j < particles.count(); ++j) {
                 const bool listed = std::find(near.begin(), near.end(), j) != near.end();
@@ -146,8 +147,7 @@ void expect_complete(const NeighbourList& list, const Particles& particles, doub
     std::size_t missing = 0, twice = 0;
     for (Index c = 0; c < list.cluster_count(); ++c) {
         std::vector<int> listed(static_cast<std::size_t>(particles.count()), 0);
-        for (const Index j : list.neighbours(c))
-            twice += ++listed[static_cast<std::size_t>(j)] > 1 ? 1 : 0;
+        list.for_each_neighbour(c, [&](Index j) { twice += ++listed[static_cast<std::size_t>(j)] > 1 ? 1 : 0; });
         for (Index i = list.cluster(c).first; i < list.cluster(c).first + list.cluster(c).count; ++i)
             for (Index j = 0; j < particles.count(); ++j)
                 missing += !listed[static_cast<std::size_t>(j)] &&
