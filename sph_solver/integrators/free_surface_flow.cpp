@@ -200,7 +200,8 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
         const Index i = moving[m];
         particles_.density[i] += time_step * density_rate_[i];
         // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
-        if (surface_ && started_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
+        // (At the start, where no time has passed, nobody has counted companions yet; a checkpoint has their numbers.)
+        if (surface_ && time_step > 0.0 && surface_->is_spray(i)) particles_.density[i] = rest_density_;
         particles_.density[i] =
             std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
@@ -210,7 +211,6 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     give_walls_volume(neighbourhood);
 
     if (surface_) surface_->update(neighbourhood);
-    started_ = true;
     find_forces(neighbourhood);
     add_remedies(neighbourhood);
     accelerate(neighbourhood);

@@ -28,7 +28,6 @@ private:
     CorrectionMatrix correction_;
     ScalarField& density_rate_;
     double rest_density_;
-    bool started_ = false;                    ///< the surface has been found once
     VectorField* density_gradient_ = nullptr; ///< only where density diffuses
     // Only where the case shifts particles:
     VectorField* shift_ = nullptr;
