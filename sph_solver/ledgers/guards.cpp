@@ -67,12 +67,14 @@ bool Guards::sound(Index i) const
     const double temperature = temperature_ ? (*temperature_)[i] : limits_.lowest_temperature;
     const DensityBounds& bounds = density_bounds(i);
     const bool numbers = zero_times(x.x + x.y + x.z + v.x + v.y + v.z + density + temperature) == 0.0;
-    const bool within_limits =
-        (x.x >= limits_.lower.x) & (x.x <= limits_.upper.x) & (x.y >= limits_.lower.y) & (x.y <= limits_.upper.y) &
-        (x.z >= limits_.lower.z) & (x.z <= limits_.upper.z) & (dot(v, v) <= limits_.sound_speed * limits_.sound_speed) &
-        (temperature >= limits_.lowest_temperature) & (temperature <= limits_.highest_temperature) &
-        (density >= bounds.lower) & (density <= bounds.upper);
-    return numbers & (within_limits | (particles_->kind[k] != Kind::fluid));
+    const bool flows_within_limits = (x.x >= limits_.lower.x) & (x.x <= limits_.upper.x) & (x.y >= limits_.lower.y) &
+                                     (x.y <= limits_.upper.y) & (x.z >= limits_.lower.z) & (x.z <= limits_.upper.z) &
+                                     (dot(v, v) <= limits_.sound_speed * limits_.sound_speed) &
+                                     (density >= bounds.lower) & (density <= bounds.upper);
+    const bool warm_within_limits =
+        (temperature >= limits_.lowest_temperature) & (temperature <= limits_.highest_temperature);
+    const Kind kind = particles_->kind[k];
+    return numbers & (flows_within_limits | (kind != Kind::fluid)) & (warm_within_limits | (kind == Kind::wall));
 }
 
 std::optional<Diagnosis> Guards::check(double time) const
@@ -106,6 +108,7 @@ Diagnosis Guards::diagnose(Index i, double time) const
         diagnosis.remedy = std::move(remedy);
         return diagnosis;
     };
+    const bool flows = particles_->kind[static_cast<std::size_t>(i)] == Kind::fluid;
     const std::string smaller_step = "reduce numerics.time_step_factor, or take a finer level";
     if (!std::isfinite(density)) return say("continuity", "not a number", "density [kg/m3]", density, smaller_step);
     if (!finite(velocity))
@@ -113,10 +116,10 @@ Diagnosis Guards::diagnose(Index i, double time) const
     if (!finite(position)) return say("motion", "not a number", "position [m]", telling_value(position), smaller_step);
     if (!std::isfinite(temperature))
         return say("heat", "not a number", "temperature [K]", temperature, "reduce numerics.thermal_time_step_factor");
-    if (!within(position, limits_.lower, limits_.upper))
+    if (flows && !within(position, limits_.lower, limits_.upper))
         return say("walls", "a particle has left the domain", "speed [m/s]", norm(velocity),
                    "enlarge the domain where it is open, else reduce numerics.time_step_factor");
-    if (!(dot(velocity, velocity) <= limits_.sound_speed * limits_.sound_speed))
+    if (flows && !(dot(velocity, velocity) <= limits_.sound_speed * limits_.sound_speed))
         return say("momentum",
                    fmt::format("faster than the artificial speed of sound, {:.6g} m/s", limits_.sound_speed),
                    "speed [m/s]", norm(velocity), "raise numerics.reference_speed or numerics.sound_speed");

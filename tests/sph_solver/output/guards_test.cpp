@@ -129,6 +129,22 @@ TEST(Guard, WallParticlesOnlyNeedNumbers)
     EXPECT_TRUE(scene.check().has_value());
 }
 
+TEST(Guard, SolidParticlesNeedATemperatureAsWell)
+{
+    // Metal that stands as a film has the kind of a solid, however hot it is.
+    SoundScene scene;
+    scene.particles.kind[faulty] = Kind::solid;
+    scene.particles.position.set(faulty, {0.0, 0.0, -1e-4});
+    scene.particles.density[faulty] = 20000.0;
+    scene.particles.velocity.set(faulty, {100.0, 0.0, 0.0});
+    EXPECT_FALSE(scene.check().has_value());
+    (*scene.temperature)[faulty] = 6001.0;
+    const auto diagnosis = scene.check();
+    ASSERT_TRUE(diagnosis.has_value());
+    EXPECT_EQ(diagnosis->model, "heat");
+    EXPECT_EQ(diagnosis->identity, faulty);
+}
+
 TEST(Guard, SceneWithoutTemperatureIsChecked)
 {
     Particles particles(4);
