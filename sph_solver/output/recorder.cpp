@@ -108,11 +108,15 @@ void Recorder::begin()
     volume_ = {volume, volume, 0.0, 0.0, volume};
     add_history_row();
     write_snapshot_now();
+    // Whatever a guard meets before the first interval has passed, there is a good state to go back to.
+    simulation_.settle();
+    write_checkpoint();
 }
 
-void Recorder::resume(const std::filesystem::path& file)
+/// Takes up a checkpoint's state; returns its numbers.
+std::map<std::string, double> Recorder::load(const std::filesystem::path& file)
 {
-    const LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
+    LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
     const auto& numbers = loaded.state.numbers;
     simulation_.load(numbers);
     simulation_.settle();
@@ -120,7 +124,15 @@ void Recorder::resume(const std::filesystem::path& file)
     volume_ = load_ledger("volume", numbers);
     greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");
     next_output_ = static_cast<std::uint64_t>(numbers.at("recorder.next_output"));
+    return std::move(loaded.state.numbers);
+}
+
+void Recorder::resume(const std::filesystem::path& file)
+{
+    const auto numbers = load(file);
     const double wall = numbers.at("recorder.wall_s"), cpu = numbers.at("recorder.cpu_s");
+    output_seconds_ = numbers.at("recorder.output_s");
+    guard_seconds_ = numbers.at("recorder.guards_s");
     fields_.emplace(folder_.fields(), provenance_, simulation_.time());
     history_.emplace(folder_.history(), history_columns(simulation_), simulation_.time());
     progress_.emplace(simulation_.scene().definition.time.end, wall);
@@ -154,47 +166,80 @@ double Recorder::output_time(std::uint64_t number) const
     return due > time.end - 1e-9 * time.output_interval ? time.end : due;
 }
 
+/// The longest step that does not pass the next output, s.
 double Recorder::longest_step() const
 {
     return output_time(next_output_) - simulation_.time();
 }
 
-void Recorder::after_step()
+bool Recorder::settling_is_due() const
 {
-    const std::uint64_t steps = simulation_.steps();
-    if (const auto problem =
-            guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time());
-        problem && simulation_.last_binding() != "output")
-        return stop(*problem);
-    const bool output_due = simulation_.last_binding() == "output";
-    if (steps % steps_between_guards == 0 || output_due)
-        if (const auto problem = guards_->check(simulation_.time())) return stop(*problem);
-    if (output_due) {
+    return simulation_.steps() % steps_between_settling == 0;
+}
+
+void Recorder::step()
+{
+    if (const auto problem = simulate()) return stop(*problem);
+    if (output_is_due()) {
         write_snapshot_now();
         if (output_time(next_output_) >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
         ++next_output_;
     }
-    if (steps % steps_between_settling == 0) {
+    if (settling_is_due()) {
         simulation_.settle();
         add_history_row();
         if (!ending_ && (stop_requested() || checkpoints_->due())) write_checkpoint();
         if (!ending_ && stop_requested()) ending_ = Ending::interrupted;
     }
-    progress_->update(simulation_.time(), steps);
+    const TimedScope timed(output_seconds_);
+    progress_->update(simulation_.time(), simulation_.steps());
 }
 
-void Recorder::write_snapshot_now()
+/// A step and what the guards say of it, where they are due.
+std::optional<Diagnosis> Recorder::simulate()
 {
-    // Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
+    step_ = simulation_.steps() + 1;
+    try {
+        simulation_.step(longest_step());
+    }
+    catch (const std::exception&) {
+        // A state so bad that not even neighbours can be listed; what the guards find in it says more.
+        if (const auto problem = guards_->check(simulation_.time())) return problem;
+        throw;
+    }
+    const TimedScope timed(guard_seconds_);
+    return problem_after_step();
+}
+
+std::optional<Diagnosis> Recorder::problem_after_step()
+{
+    if (!output_is_due())
+        if (const auto problem =
+                guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time()))
+            return problem;
+    if (step_ % steps_between_guards != 0 && !output_is_due()) return {};
+    return guards_->check(simulation_.time());
+}
+
+/// Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
+void Recorder::bring_standing_to_rest()
+{
     Particles& particles = simulation_.particles();
     const ScalarField& mobility = particles.scalar("mobility");
     for (Index i = 0; i < particles.count(); ++i)
         if (mobility[i] == 0.0) particles.velocity.set(i, {});
-    fields_->write(particles, simulation_.time());
+}
+
+void Recorder::write_snapshot_now()
+{
+    const TimedScope timed(output_seconds_);
+    bring_standing_to_rest();
+    fields_->write(simulation_.particles(), simulation_.time());
 }
 
 void Recorder::write_checkpoint()
 {
+    const TimedScope timed(output_seconds_);
     RunState state;
     state.time = simulation_.time();
     state.step = simulation_.steps();
@@ -205,6 +250,8 @@ void Recorder::write_checkpoint()
     state.numbers["recorder.next_output"] = static_cast<double>(next_output_);
     state.numbers["recorder.wall_s"] = cost_->wall_seconds();
     state.numbers["recorder.cpu_s"] = cost_->cpu_seconds();
+    state.numbers["recorder.output_s"] = output_seconds_;
+    state.numbers["recorder.guards_s"] = guard_seconds_;
     history_->flush();
     checkpoints_->write(simulation_.particles(), state);
 }
@@ -238,8 +285,18 @@ double Recorder::primary_volume() const
     });
 }
 
+void Recorder::update_books()
+{
+    if (!simulation_.flow()) return;
+    mass_.end = total_mass();
+    volume_.end = primary_volume();
+    greatest_volume_error_ = std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
+}
+
 void Recorder::add_history_row()
 {
+    const TimedScope timed(output_seconds_);
+    update_books();
     const Particles& particles = simulation_.particles();
     std::vector<double> row{simulation_.time(), static_cast<double>(simulation_.steps()), simulation_.last_time_step(),
                             static_cast<double>(simulation_.neighbourhood().moving_particles().size())};
@@ -253,10 +310,6 @@ void Recorder::add_history_row()
             const Vector v = particles.velocity[i];
             return 0.5 * particles.mass[i] * dot(v, v);
         });
-        mass_.end = total_mass();
-        volume_.end = primary_volume();
-        greatest_volume_error_ =
-            std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
         row.insert(row.end(), {kinetic, std::sqrt(greatest), mass_.end, volume_.end, simulation_.escaped_mass(),
                                greatest_density_error_now()});
     }
@@ -272,15 +325,65 @@ void Recorder::add_history_row()
 void Recorder::stop(const Diagnosis& diagnosis)
 {
     diagnosis_ = diagnosis.line();
-    log_->error("{}", diagnosis_);
-    write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
     ending_ = Ending::stopped;
+    cost_when_stopped_ = cost_so_far();
+    log_->error("{}", diagnosis_);
+    try {
+        write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
+        return_to_last_good_state();
+    }
+    catch (const OutputError& error) {
+        log_->warn("the last good state is not kept: {}", error.what());
+    }
+}
+
+/// The last good state is that of the last step after which the run settled, having passed all guards: from the newest
+/// checkpoint the same steps lead there again, bit for bit, without a copy of the particles held through all the run.
+void Recorder::return_to_last_good_state()
+{
+    const std::uint64_t good = (step_ - 1) / steps_between_settling * steps_between_settling;
+    const auto checkpoint = newest_checkpoint(folder_.checkpoints());
+    if (!checkpoint) throw OutputError(folder_.checkpoints().string() + ": the checkpoints have been removed");
+    load(*checkpoint);
+    log_->info("going back to step {} by way of {}", good, checkpoint->filename().string());
+    const std::uint64_t start = simulation_.steps();
+    while (simulation_.steps() < good && !stop_requested()) {
+        simulation_.step(longest_step());
+        if (output_is_due()) {
+            bring_standing_to_rest();
+            ++next_output_;
+        }
+        if (settling_is_due()) {
+            simulation_.settle();
+            update_books();
+        }
+    }
+    if (simulation_.steps() != good) throw OutputError("interrupted on the way to it");
+    if (good != start) write_checkpoint();
+    bring_standing_to_rest();
+    write_snapshot(folder_.last_good_fields(), simulation_.particles(), simulation_.time(), provenance_);
+    log_->info("the last good state, t = {:.6g} s, is in {} and the newest checkpoint", simulation_.time(),
+               folder_.last_good_fields().filename().string());
+}
+
+RunCost Recorder::cost_so_far() const
+{
+    RunCost cost;
+    cost.threads = options_.threads;
+    cost.steps = simulation_.steps();
+    cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
+    cost.element_updates = static_cast<double>(simulation_.updates());
+    cost.time_step_binding = simulation_.binding_limits();
+    cost.output_seconds = output_seconds_;
+    cost.guard_seconds = guard_seconds_;
+    cost.measure(*cost_);
+    return cost;
 }
 
 Ending Recorder::finish()
 {
-    // An interrupted run has just written the row of its checkpoint; the resumed one goes on from there.
-    if (*ending_ != Ending::interrupted) add_history_row();
+    // Where the run has just settled, that step has its row; a stopped run ends with that of its last good state.
+    if (*ending_ == Ending::completed && !settling_is_due()) add_history_row();
     history_->flush();
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {
@@ -305,15 +408,10 @@ Ending Recorder::finish()
             {"evaporation", books.evaporation},       {"radiation", books.radiation},
             {"convection", books.convection}};
     }
-    record.cost.threads = options_.threads;
-    record.cost.steps = simulation_.steps();
-    record.cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
-    record.cost.element_updates = static_cast<double>(simulation_.updates());
-    record.cost.time_step_binding = simulation_.binding_limits();
-    record.cost.measure(*cost_);
+    record.cost = *ending_ == Ending::stopped ? cost_when_stopped_ : cost_so_far();
     write_record(folder_.record(), record);
     log_->info("{} after {} steps, {:.1f} CPU s", *ending_ == Ending::completed ? "completed" : "stopped",
-               simulation_.steps(), record.cost.cpu_seconds);
+               record.cost.steps, record.cost.cpu_seconds);
     return *ending_;
 }
 
