@@ -13,46 +13,6 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-/// Steps after which a run settles: the places where a checkpoint can be, whatever the clock says.
-constexpr std::uint64_t steps_between_settling = 50;
-constexpr std::uint64_t steps_between_guards = 10;
-
-/// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
-/// against a wall at a tenth of the artificial speed of sound is compressed by a fifth for an instant (water hammer).
-constexpr double greatest_density_error = 0.5;
-
-GuardLimits guard_limits(const Simulation& simulation)
-{
-    const Case& definition = simulation.scene().definition;
-    GuardLimits limits;
-    for (const Material& material : simulation.scene().materials)
-        limits.density.push_back(
-            {(1.0 - greatest_density_error) * material.density, (1.0 + greatest_density_error) * material.density});
-    if (simulation.flow()) {
-        limits.sound_speed = simulation.parameters().equation_of_state.sound_speed;
-        double smallest = simulation.limits().at("acoustic");
-        for (const auto& [name, limit] : simulation.limits())
-            smallest = std::min(smallest, limit);
-        limits.smallest_time_step = 1e-4 * smallest;
-    }
-    if (simulation.heat()) {
-        limits.lowest_temperature = simulation.heat()->lowest_possible_temperature() - 1.0;
-        limits.highest_temperature = 20000.0;
-    }
-    // A particle beyond a wall has gone through it; beyond any other side it has flown out and is retired.
-    const bool walled = simulation.particles().has("wall_normal");
-    const auto margin = [&](std::size_t side) {
-        const auto& boundary = definition.domain.boundaries[side];
-        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
-        return stops ? definition.spacing : std::numeric_limits<double>::infinity();
-    };
-    const auto& lower = definition.domain.lower;
-    const auto& upper = definition.domain.upper;
-    limits.lower = {lower[0] - margin(0), lower[1] - margin(2), lower[2] - margin(4)};
-    limits.upper = {upper[0] + margin(1), upper[1] + margin(3), upper[2] + margin(5)};
-    return limits;
-}
-
 /// A run without a checkpoint begins anew, whatever was asked for; a folder's name never ends in a slash.
 RecorderOptions with_resumable(RecorderOptions options)
 {
@@ -85,7 +45,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
                                                                       simulation.scene().definition.hash,
                                                                       simulation.scene().definition.resolved.dump()}
 {
-    guards_.emplace(simulation_.particles(), guard_limits(simulation_));
+    guards_.emplace(simulation_.particles(), guard_limits());
     checkpoints_.emplace(folder_.checkpoints(), provenance_,
                          std::chrono::duration<double>(options_.seconds_between_checkpoints));
     const auto checkpoint = options_.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
@@ -113,8 +73,8 @@ void Recorder::begin()
     write_checkpoint();
 }
 
-/// Takes up a checkpoint's state; returns its numbers.
-std::map<std::string, double> Recorder::load(const std::filesystem::path& file)
+/// Takes up a checkpoint's state, and returns it.
+RunState Recorder::load(const std::filesystem::path& file)
 {
     LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
     const auto& numbers = loaded.state.numbers;
@@ -124,16 +84,18 @@ std::map<std::string, double> Recorder::load(const std::filesystem::path& file)
     volume_ = load_ledger("volume", numbers);
     greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");
     next_output_ = static_cast<std::uint64_t>(numbers.at("recorder.next_output"));
-    return std::move(loaded.state.numbers);
+    return std::move(loaded.state);
 }
 
 void Recorder::resume(const std::filesystem::path& file)
 {
-    const auto numbers = load(file);
+    const RunState state = load(file);
+    const auto& numbers = state.numbers;
     const double wall = numbers.at("recorder.wall_s"), cpu = numbers.at("recorder.cpu_s");
     output_seconds_ = numbers.at("recorder.output_s");
     guard_seconds_ = numbers.at("recorder.guards_s");
-    fields_.emplace(folder_.fields(), provenance_, simulation_.time());
+    fields_.emplace(folder_.fields(), provenance_,
+                    SnapshotList{state.arrays.at("snapshots.times"), state.arrays.at("snapshots.numbers")});
     history_.emplace(folder_.history(), history_columns(simulation_), simulation_.time());
     progress_.emplace(simulation_.scene().definition.time.end, wall);
     cost_.emplace(wall, cpu);
@@ -195,32 +157,6 @@ void Recorder::step()
     progress_->update(simulation_.time(), simulation_.steps());
 }
 
-/// A step and what the guards say of it, where they are due.
-std::optional<Diagnosis> Recorder::simulate()
-{
-    step_ = simulation_.steps() + 1;
-    try {
-        simulation_.step(longest_step());
-    }
-    catch (const std::exception&) {
-        // A state so bad that not even neighbours can be listed; what the guards find in it says more.
-        if (const auto problem = guards_->check(simulation_.time())) return problem;
-        throw;
-    }
-    const TimedScope timed(guard_seconds_);
-    return problem_after_step();
-}
-
-std::optional<Diagnosis> Recorder::problem_after_step()
-{
-    if (!output_is_due())
-        if (const auto problem =
-                guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time()))
-            return problem;
-    if (step_ % steps_between_guards != 0 && !output_is_due()) return {};
-    return guards_->check(simulation_.time());
-}
-
 /// Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
 void Recorder::bring_standing_to_rest()
 {
@@ -252,7 +188,11 @@ void Recorder::write_checkpoint()
     state.numbers["recorder.cpu_s"] = cost_->cpu_seconds();
     state.numbers["recorder.output_s"] = output_seconds_;
     state.numbers["recorder.guards_s"] = guard_seconds_;
+    const SnapshotList snapshots = fields_->until(state.time);
+    state.arrays["snapshots.times"] = snapshots.times;
+    state.arrays["snapshots.numbers"] = snapshots.numbers;
     history_->flush();
+    fields_->flush();
     checkpoints_->write(simulation_.particles(), state);
 }
 
@@ -322,50 +262,6 @@ void Recorder::add_history_row()
     history_->add(row);
 }
 
-void Recorder::stop(const Diagnosis& diagnosis)
-{
-    diagnosis_ = diagnosis.line();
-    ending_ = Ending::stopped;
-    cost_when_stopped_ = cost_so_far();
-    log_->error("{}", diagnosis_);
-    try {
-        write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
-        return_to_last_good_state();
-    }
-    catch (const OutputError& error) {
-        log_->warn("the last good state is not kept: {}", error.what());
-    }
-}
-
-/// The last good state is that of the last step after which the run settled, having passed all guards: from the newest
-/// checkpoint the same steps lead there again, bit for bit, without a copy of the particles held through all the run.
-void Recorder::return_to_last_good_state()
-{
-    const std::uint64_t good = (step_ - 1) / steps_between_settling * steps_between_settling;
-    const auto checkpoint = newest_checkpoint(folder_.checkpoints());
-    if (!checkpoint) throw OutputError(folder_.checkpoints().string() + ": the checkpoints have been removed");
-    load(*checkpoint);
-    log_->info("going back to step {} by way of {}", good, checkpoint->filename().string());
-    const std::uint64_t start = simulation_.steps();
-    while (simulation_.steps() < good && !stop_requested()) {
-        simulation_.step(longest_step());
-        if (output_is_due()) {
-            bring_standing_to_rest();
-            ++next_output_;
-        }
-        if (settling_is_due()) {
-            simulation_.settle();
-            update_books();
-        }
-    }
-    if (simulation_.steps() != good) throw OutputError("interrupted on the way to it");
-    if (good != start) write_checkpoint();
-    bring_standing_to_rest();
-    write_snapshot(folder_.last_good_fields(), simulation_.particles(), simulation_.time(), provenance_);
-    log_->info("the last good state, t = {:.6g} s, is in {} and the newest checkpoint", simulation_.time(),
-               folder_.last_good_fields().filename().string());
-}
-
 RunCost Recorder::cost_so_far() const
 {
     RunCost cost;
@@ -384,7 +280,11 @@ Ending Recorder::finish()
 {
     // Where the run has just settled, that step has its row; a stopped run ends with that of its last good state.
     if (*ending_ == Ending::completed && !settling_is_due()) add_history_row();
-    history_->flush();
+    {
+        const TimedScope timed(output_seconds_);
+        history_->flush();
+        fields_->flush();
+    }
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {
         log_->warn("interrupted at t = {:.6g} s; a checkpoint is kept, go on with --resume", simulation_.time());

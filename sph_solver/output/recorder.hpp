@@ -38,9 +38,13 @@ public:
     Ending finish();
 
 private:
+    /// Steps after which a run settles: the places where a checkpoint can be, whatever the clock says.
+    static constexpr std::uint64_t steps_between_settling = 50;
+
+    GuardLimits guard_limits() const;
     void begin();
     void resume(const std::filesystem::path& checkpoint);
-    std::map<std::string, double> load(const std::filesystem::path& checkpoint);
+    RunState load(const std::filesystem::path& checkpoint);
     void announce() const;
     std::optional<Diagnosis> simulate();
     std::optional<Diagnosis> problem_after_step();
