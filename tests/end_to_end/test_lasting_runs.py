@@ -30,9 +30,37 @@ def unbroken(tmp_path_factory):
     return case, root / "run"
 
 
-def resume_and_compare(case, folder, whole) -> None:
-    """Goes on from the newest checkpoint, which must be beyond the start, to the same end."""
+@pytest.fixture(scope="module")
+def begun(unbroken, tmp_path_factory):
+    """The folder of the same run, interrupted early on: its newest checkpoint is beyond the start."""
+    folder = tmp_path_factory.mktemp("begun") / "run"
+    process = start(unbroken[0], folder, listed=20)
+    process.send_signal(signal.SIGTERM)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    one_line(errors, "interrupted", "--resume")
     assert step_of(newest_checkpoint(folder)) > 0
+    return folder
+
+
+def start(case, folder, listed: int) -> subprocess.Popen:
+    """Starts the run, or goes on with it, and waits until it has so many snapshots."""
+    process = subprocess.Popen(command(case, folder, *OFTEN, "--resume"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while len(listed_snapshots(folder)) < listed:
+        assert process.poll() is None and time.monotonic() < deadline, "the run was over too soon or never began"
+        time.sleep(0.01)
+    return process
+
+
+def go_on(case, begun, folder) -> subprocess.Popen:
+    """Goes on with a copy of the begun run and waits until it has written something more."""
+    shutil.copytree(begun, folder)
+    return start(case, folder, listed=len(listed_snapshots(begun)) + 10)
+
+
+def resume_and_compare(case, folder, whole) -> None:
+    """Goes on from the newest checkpoint to the same end."""
     done = solve(case, folder, "--resume")
     assert done.returncode == 0 and done.stderr == "", done.stderr
     assert "resumed from checkpoint_" in (folder / "log.txt").read_text()
@@ -63,7 +91,7 @@ def enter_namespace() -> list[str] | None:
     return None
 
 
-def test_a_disk_that_fills_up_ends_the_run_in_one_line_and_it_goes_on_when_there_is_space(unbroken, tmp_path):
+def test_a_disk_that_fills_up_ends_the_run_in_one_line_and_it_goes_on_when_there_is_space(unbroken, begun, tmp_path):
     case, whole = unbroken
     enter = enter_namespace()
     if enter is None:
@@ -73,29 +101,19 @@ def test_a_disk_that_fills_up_ends_the_run_in_one_line_and_it_goes_on_when_there
     files = [path for path in whole.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) - sum(path.stat().st_size for path in snapshots(whole)) // 4
     # What the small disk holds is copied to a large one before it vanishes with its namespace, as if space was made.
-    script = 'mount -t tmpfs -o size=$1 none disk || exit 99; shift; "$@"; status=$?; cp -a disk/run kept; exit $status'
-    done = subprocess.run([*enter, "sh", "-c", script, "sh", str(size), *command(case, "disk/run", *OFTEN)],
+    script = 'mount -t tmpfs -o size=$1 none disk && cp -a "$2" disk/run || exit 99; shift 2; "$@"; status=$?; cp -a disk/run kept; exit $status'
+    done = subprocess.run([*enter, "sh", "-c", script, "sh", str(size), str(begun), *command(case, "disk/run", "--resume")],
                           cwd=tmp_path, capture_output=True, text=True, timeout=300)
     assert done.returncode == 1, done.stderr
     one_line(done.stderr, "cupel_sph: disk/run/", "the disk is full", "free some space", "--resume")
     assert_nothing_half_written(kept)
-    assert len(listed_snapshots(kept)) < len(listed_snapshots(whole)), "the disk was large enough"
+    assert len(listed_snapshots(begun)) < len(listed_snapshots(kept)) < len(listed_snapshots(whole))
     resume_and_compare(case, kept, whole)
 
 
-def start(case, folder, listed: int) -> subprocess.Popen:
-    """Starts the run and waits until it has so many snapshots and a checkpoint beyond the start."""
-    process = subprocess.Popen(command(case, folder, *OFTEN), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
-    while len(listed_snapshots(folder)) < listed or step_of(newest_checkpoint(folder)) == 0:
-        assert process.poll() is None and time.monotonic() < deadline, "the run was over too soon or never began"
-        time.sleep(0.01)
-    return process
-
-
-def test_a_folder_that_is_renamed_ends_the_run_in_one_line_and_it_goes_on_when_the_name_is_back(unbroken, tmp_path):
+def test_a_folder_that_is_renamed_ends_the_run_in_one_line_and_it_goes_on_when_the_name_is_back(unbroken, begun, tmp_path):
     case, whole = unbroken
-    process = start(case, tmp_path / "run", listed=20)
+    process = go_on(case, begun, tmp_path / "run")
     (tmp_path / "run").rename(tmp_path / "elsewhere")
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 1
@@ -106,10 +124,10 @@ def test_a_folder_that_is_renamed_ends_the_run_in_one_line_and_it_goes_on_when_t
     resume_and_compare(case, tmp_path / "run", whole)
 
 
-def test_a_folder_that_is_removed_ends_the_run_in_one_line_and_stays_away(unbroken, tmp_path):
+def test_a_folder_that_is_removed_ends_the_run_in_one_line_and_stays_away(unbroken, begun, tmp_path):
     case, _ = unbroken
     folder = tmp_path / "run"
-    process = start(case, folder, listed=20)
+    process = go_on(case, begun, folder)
     while folder.exists():
         shutil.rmtree(folder, ignore_errors=True)  # again where the run has just written another file
     _, errors = process.communicate(timeout=60)
@@ -118,14 +136,10 @@ def test_a_folder_that_is_removed_ends_the_run_in_one_line_and_stays_away(unbrok
     assert not folder.exists()
 
 
-def test_an_interrupted_run_leaves_a_checkpoint_and_goes_on_to_the_same_end(unbroken, tmp_path):
+def test_an_interrupted_run_leaves_a_checkpoint_and_goes_on_to_the_same_end(unbroken, begun, tmp_path):
     case, whole = unbroken
-    process = start(case, tmp_path / "run", listed=20)
-    process.send_signal(signal.SIGTERM)
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130
-    one_line(errors, "interrupted", "--resume")
-    assert_nothing_half_written(tmp_path / "run")
+    assert_nothing_half_written(begun)
+    shutil.copytree(begun, tmp_path / "run")
     resume_and_compare(case, tmp_path / "run", whole)
 
 
