@@ -66,6 +66,7 @@ public:
 
 private:
     const DensityBounds& density_bounds(Index i) const;
+    bool stands_and_is_sound(std::size_t first, std::size_t end) const;
     bool sound(Index i) const;
     Diagnosis diagnose(Index i, double time) const;
 

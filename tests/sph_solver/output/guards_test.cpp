@@ -145,6 +145,27 @@ TEST(Guard, SolidParticlesNeedATemperatureAsWell)
     EXPECT_EQ(diagnosis->identity, faulty);
 }
 
+TEST(Guard, WhereEverythingStandsNoFaultIsOverlooked)
+{
+    const std::vector<std::function<void(SoundScene&)>> faults{
+        [](SoundScene& s) { s.particles.position.x[faulty] = not_a_number; },
+        [](SoundScene& s) { s.particles.velocity.z[faulty] = infinite; },
+        [](SoundScene& s) { s.particles.density[faulty] = -infinite; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = not_a_number; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = 6001.0; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = 199.0; }};
+    for (std::size_t k = 0; k < faults.size(); ++k) {
+        SoundScene scene;
+        for (Index i = 0; i < count; ++i)
+            if (i != 3) scene.particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
+        EXPECT_FALSE(scene.check().has_value());
+        faults[k](scene);
+        const auto diagnosis = scene.check();
+        ASSERT_TRUE(diagnosis.has_value()) << "fault " << k;
+        EXPECT_EQ(diagnosis->identity, faulty);
+    }
+}
+
 TEST(Guard, SceneWithoutTemperatureIsChecked)
 {
     Particles particles(4);
