@@ -86,13 +86,21 @@ class Job:
                 result = results.read_result(self.place)
                 if result["status"] == "completed":
                     return "result"
-                # A stopped run would stop again: start it afresh.
-                return "other"
-            if (folder / "run.json").exists() and results.read_json(folder / "run.json").get("status") == "completed":
+                # A stopped run would stop again: start it afresh. One that failed (a full disk, a kill) goes on.
+                if result["status"] != "failed":
+                    return "other"
+            elif (folder / "run.json").exists() and results.read_json(folder / "run.json").get("status") == "completed":
                 return "run"
         except CupelError:
             return "other"
         return "checkpoint" if any((folder / "checkpoints").glob("*")) else "nothing"
+
+    def forget_failure(self) -> None:
+        """Removes the result of a failed run, which goes on now."""
+        try:
+            (self.place.folder / "result.json").unlink(missing_ok=True)
+        except OSError as error:
+            raise describe_system_error(error, self.place.folder / "result.json") from None
 
     def prepare_folder(self) -> None:
         """An empty folder with the resolved case and the launch record; what was there is moved aside."""

@@ -42,6 +42,7 @@ class Runner:
         self.waiting = sorted(jobs, key=Job.expected_seconds, reverse=True)
         self.running: dict[Job, subprocess.Popen] = {}
         self.buffers: dict[Job, bytes] = {}
+        self.messages: dict[Job, int] = {}  # files in memory that programs write their messages to
         self.selector = selectors.DefaultSelector()
         self.interrupted = 0
         self.interrupted_at = 0.0
@@ -82,7 +83,9 @@ class Runner:
                 job.simulated = job.end_time
                 self._measure(job)
                 return
-            if earlier != "checkpoint":
+            if earlier == "checkpoint":
+                job.forget_failure()
+            else:
                 if earlier == "other":
                     self.display.say(f"{job.place}: the case or the code has changed; starting afresh")
                 job.prepare_folder()
@@ -93,14 +96,16 @@ class Runner:
             self._close(job, "failed", str(error))
 
     def _spawn(self, job: Job, phase: str, command: list[str]) -> None:
-        """Starts a program for `job`; its messages go to messages.txt in the result folder."""
+        """Starts a program for `job`; its messages are kept in memory, where neither a full disk nor a lost folder takes them."""
+        messages = os.memfd_create("messages")
         try:
-            with open(job.place.folder / "messages.txt", "a" if phase == "measuring" else "w") as messages:
-                process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=messages,
-                                           env=solvers.environment(job.threads), start_new_session=True,
-                                           preexec_fn=_follow_parent)
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=messages,
+                                       env=solvers.environment(job.threads), start_new_session=True,
+                                       preexec_fn=_follow_parent)
         except OSError as error:
+            os.close(messages)
             raise CupelError(f"cannot start {command[0]}: {error.strerror}") from None
+        self.messages[job] = messages
         os.set_blocking(process.stdout.fileno(), False)
         job.phase = phase
         if phase == "solving":
@@ -138,7 +143,7 @@ class Runner:
 
     def _on_end(self, job: Job, status: int) -> None:
         """A program of `job` has ended: measures a run that has an account, records one that has none."""
-        message = last_line((job.place.folder / "messages.txt").read_text(errors="replace"))
+        message = self._take_messages(job)
         try:
             if job.phase == "measuring":
                 self._on_measured(job, status, message)
@@ -152,10 +157,25 @@ class Runner:
                 text = message or (f"killed by signal {-status}" if status < 0 else f"exit status {status}, no message")
                 if status == 0:
                     text = "the solver ended without writing its account (run.json)"
-                finish_result.failed_result(job.place.folder, word, text, time.monotonic() - job.started)
+                try:
+                    finish_result.failed_result(job.place.folder, word, text, time.monotonic() - job.started)
+                except CupelError:
+                    pass  # a full disk or a lost folder: the solver's own line says so, and says more
                 self._close(job, word, text)
         except CupelError as error:
             self._close(job, "failed", str(error))
+
+    def _take_messages(self, job: Job) -> str:
+        """The last line of what a program that has ended said; all of it goes to messages.txt where that can be written."""
+        with open(self.messages.pop(job), "rb") as messages:
+            messages.seek(0)
+            text = messages.read().decode(errors="replace")
+        try:
+            with open(job.place.folder / "messages.txt", "a" if job.phase == "measuring" else "w") as file:
+                file.write(text)
+        except OSError:
+            pass
+        return last_line(text)
 
     def _on_measured(self, job: Job, status: int, message: str) -> None:
         if self.interrupted and status != 0:

@@ -302,6 +302,7 @@ void Simulation::load(const std::map<std::string, double>& numbers)
     steps_ = static_cast<std::uint64_t>(numbers.at("clock.steps"));
     updates_ = static_cast<std::uint64_t>(numbers.at("clock.updates"));
     last_time_step_ = numbers.at("clock.last_time_step");
+    binding_.clear();
     const std::string prefix = "binding.";
     for (const auto& [name, value] : numbers)
         if (name.starts_with(prefix)) binding_[name.substr(prefix.size())] = static_cast<std::uint64_t>(value);

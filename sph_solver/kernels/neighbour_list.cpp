@@ -31,6 +31,12 @@ Lanes lanes_from(const Array& coordinate, Index first, double middle)
     return Lanes(lanes);
 }
 
+/// Of `count` columns the one that a place is in, or the outermost; the first where it is no number.
+Index column(double place, Index count)
+{
+    return place > 0.0 ? static_cast<Index>(std::min(place, static_cast<double>(count - 1))) : 0;
+}
+
 /// How far a coordinate lies beyond ±half.
 Lanes outside(const Lanes& coordinate, double half)
 {
@@ -78,13 +84,11 @@ NeighbourList::NeighbourList(double support, double skin, double spacing, int di
 
 Index NeighbourList::column_x(double x) const
 {
-    return static_cast<Index>(
-        std::clamp(std::floor((x - origin_.x) / column_width_), 0.0, static_cast<double>(columns_x_ - 1)));
+    return column((x - origin_.x) / column_width_, columns_x_);
 }
 Index NeighbourList::column_y(double y) const
 {
-    return static_cast<Index>(
-        std::clamp(std::floor((y - origin_.y) / column_width_), 0.0, static_cast<double>(columns_y_ - 1)));
+    return column((y - origin_.y) / column_width_, columns_y_);
 }
 
 void NeighbourList::build(Particles& particles)

@@ -49,8 +49,8 @@ struct GuardLimits
     double smallest_time_step = 0; ///< below it a run does not get on [s]
 };
 
-/// Checks a scene's particles. The field "temperature" is checked where it is registered. Of wall and solid particles,
-/// whose density and velocity only carry boundary conditions, nothing but that they are numbers.
+/// Checks a scene's particles. The field "temperature" is checked where it is registered, in solids as in liquids. What
+/// else wall and solid particles have only carries boundary conditions: it has to be a number, no more.
 class Guards
 {
 public:
@@ -66,6 +66,7 @@ public:
 
 private:
     const DensityBounds& density_bounds(Index i) const;
+    bool stands_and_is_sound(std::size_t first, std::size_t end) const;
     bool sound(Index i) const;
     Diagnosis diagnose(Index i, double time) const;
 

@@ -75,15 +75,20 @@ fs::path beside(const fs::path& path)
     return path.parent_path() / fmt::format(".{}.beside", path.filename().string());
 }
 
-void write_whole(const fs::path& path, std::string_view content)
+void flush_to_disk(const fs::path& path)
+{
+    std::error_code error;
+    if (fs::exists(path, error)) FileDescriptor(path, O_RDONLY, "flushed to the disk").flush();
+}
+
+void write_whole(const fs::path& path, std::string_view content, Flush flush)
 {
     const fs::path prepared = beside(path);
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     try {
         {
             FileDescriptor file(prepared, O_WRONLY | O_CREAT | O_TRUNC, "written", path);
             file.write(content);
-            file.flush();
+            if (flush == Flush::now) file.flush();
         }
         if (::rename(prepared.c_str(), path.c_str()) != 0) throw system_output_error(errno, path, "replaced");
     }
@@ -91,7 +96,7 @@ void write_whole(const fs::path& path, std::string_view content)
         ::unlink(prepared.c_str());
         throw;
     }
-    FileDescriptor(folder, O_RDONLY | O_DIRECTORY, "flushed to the disk").flush(); // the new name itself
+    if (flush == Flush::now) flush_to_disk(path.has_parent_path() ? path.parent_path() : "."); // the new name itself
 }
 
 std::string read_whole(const fs::path& path)

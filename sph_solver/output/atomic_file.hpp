@@ -20,9 +20,16 @@ public:
 /// `action` completes "cannot be ...", e.g. "written".
 OutputError system_output_error(int error_number, const std::filesystem::path& path, std::string_view action);
 
-/// Replaces the file at `path` by `content`: a reader sees the old file or the new one, a kill at any moment leaves
-/// one of them, and what was written is on the disk on return. Throws OutputError; the old file is then untouched.
-void write_whole(const std::filesystem::path& path, std::string_view content);
+/// Whether what is written is on the disk on return, or when somebody flushes it later: waiting for the disk takes
+/// longer than all else, and only a loss of power makes a difference.
+enum class Flush { now, later };
+
+/// Replaces the file at `path` by `content`: a reader sees the old file or the new one, and a kill at any moment leaves
+/// one of them. Throws OutputError; the old file is then untouched.
+void write_whole(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::now);
+
+/// Waits until a file or folder is on the disk as it is now; one that has been removed is no error. Throws OutputError.
+void flush_to_disk(const std::filesystem::path& path);
 
 /// Name under which write_whole prepares a file before the renaming; it starts with a dot and is overwritten freely.
 std::filesystem::path beside(const std::filesystem::path& path);

@@ -19,7 +19,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t header_size = 512;
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr const char* title_line = "Cupel checkpoint\n";
 constexpr std::size_t checksum_digits = 8;
 

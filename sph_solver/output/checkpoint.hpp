@@ -4,7 +4,7 @@
 /// HDF5 library sees the rest:
 ///
 ///     Cupel checkpoint
-///     format 1
+///     format 2
 ///     version 0.1.0
 ///     commit 0123456789ab
 ///     case <hash of the resolved case>

@@ -16,6 +16,8 @@ namespace cupel
 namespace
 {
 
+constexpr std::size_t most_pending = 1 << 16; // bytes
+
 /// The rows of an earlier part of the run up to a time. A cut-off last row has no line break and is not among them.
 std::string rows_until(double time, std::string_view content, std::string_view header, const std::string& where)
 {
@@ -55,6 +57,7 @@ void History::add(std::span<const double> values)
         throw std::logic_error(
             fmt::format("a history of {} columns was given {} values", columns_.size(), values.size()));
     fmt::format_to(std::back_inserter(pending_), "{}\n", fmt::join(values, ","));
+    if (pending_.size() > most_pending) flush();
 }
 
 void History::flush()

@@ -21,7 +21,8 @@ public:
     /// break.
     History(std::filesystem::path path, std::vector<std::string> columns, std::optional<double> resume_time = {});
 
-    /// One value a column, the time first. Throws std::logic_error where their number differs.
+    /// One value a column, the time first. Throws std::logic_error where their number differs. Rows that wait take
+    /// little memory, however rare the checkpoints are: beyond 64 KiB they are flushed (OutputError).
     void add(std::span<const double> values);
 
     /// Appends the rows added since the last flush and puts them on the disk: before every checkpoint, so that a

@@ -13,45 +13,6 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-constexpr std::uint64_t steps_between_history_rows = 50;
-constexpr std::uint64_t steps_between_guards = 10;
-
-/// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
-/// against a wall at a tenth of the artificial speed of sound is compressed by a fifth for an instant (water hammer).
-constexpr double greatest_density_error = 0.5;
-
-GuardLimits guard_limits(const Simulation& simulation)
-{
-    const Case& definition = simulation.scene().definition;
-    GuardLimits limits;
-    for (const Material& material : simulation.scene().materials)
-        limits.density.push_back(
-            {(1.0 - greatest_density_error) * material.density, (1.0 + greatest_density_error) * material.density});
-    if (simulation.flow()) {
-        limits.sound_speed = simulation.parameters().equation_of_state.sound_speed;
-        double smallest = simulation.limits().at("acoustic");
-        for (const auto& [name, limit] : simulation.limits())
-            smallest = std::min(smallest, limit);
-        limits.smallest_time_step = 1e-4 * smallest;
-    }
-    if (simulation.heat()) {
-        limits.lowest_temperature = simulation.heat()->lowest_possible_temperature() - 1.0;
-        limits.highest_temperature = 20000.0;
-    }
-    // A particle beyond a wall has gone through it; beyond any other side it has flown out and is retired.
-    const bool walled = simulation.particles().has("wall_normal");
-    const auto margin = [&](std::size_t side) {
-        const auto& boundary = definition.domain.boundaries[side];
-        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
-        return stops ? definition.spacing : std::numeric_limits<double>::infinity();
-    };
-    const auto& lower = definition.domain.lower;
-    const auto& upper = definition.domain.upper;
-    limits.lower = {lower[0] - margin(0), lower[1] - margin(2), lower[2] - margin(4)};
-    limits.upper = {upper[0] + margin(1), upper[1] + margin(3), upper[2] + margin(5)};
-    return limits;
-}
-
 /// A run without a checkpoint begins anew, whatever was asked for; a folder's name never ends in a slash.
 RecorderOptions with_resumable(RecorderOptions options)
 {
@@ -84,7 +45,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
                                                                       simulation.scene().definition.hash,
                                                                       simulation.scene().definition.resolved.dump()}
 {
-    guards_.emplace(simulation_.particles(), guard_limits(simulation_));
+    guards_.emplace(simulation_.particles(), guard_limits());
     checkpoints_.emplace(folder_.checkpoints(), provenance_,
                          std::chrono::duration<double>(options_.seconds_between_checkpoints));
     const auto checkpoint = options_.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
@@ -107,20 +68,34 @@ void Recorder::begin()
     volume_ = {volume, volume, 0.0, 0.0, volume};
     add_history_row();
     write_snapshot_now();
+    // Whatever a guard meets before the first interval has passed, there is a good state to go back to.
+    settle();
+    write_checkpoint();
 }
 
-void Recorder::resume(const std::filesystem::path& file)
+/// Takes up a checkpoint's state, and returns it.
+RunState Recorder::load(const std::filesystem::path& file)
 {
-    const LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
+    LoadedCheckpoint loaded = load_checkpoint(file, provenance_, simulation_.particles());
     const auto& numbers = loaded.state.numbers;
     simulation_.load(numbers);
-    simulation_.settle();
+    settle();
     mass_ = load_ledger("mass", numbers);
     volume_ = load_ledger("volume", numbers);
     greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");
     next_output_ = static_cast<std::uint64_t>(numbers.at("recorder.next_output"));
+    return std::move(loaded.state);
+}
+
+void Recorder::resume(const std::filesystem::path& file)
+{
+    const RunState state = load(file);
+    const auto& numbers = state.numbers;
     const double wall = numbers.at("recorder.wall_s"), cpu = numbers.at("recorder.cpu_s");
-    fields_.emplace(folder_.fields(), provenance_, simulation_.time());
+    output_seconds_ = numbers.at("recorder.output_s");
+    guard_seconds_ = numbers.at("recorder.guards_s");
+    fields_.emplace(folder_.fields(), provenance_,
+                    SnapshotList{state.arrays.at("snapshots.times"), state.arrays.at("snapshots.numbers")});
     history_.emplace(folder_.history(), history_columns(simulation_), simulation_.time());
     progress_.emplace(simulation_.scene().definition.time.end, wall);
     cost_.emplace(wall, cpu);
@@ -153,48 +128,56 @@ double Recorder::output_time(std::uint64_t number) const
     return due > time.end - 1e-9 * time.output_interval ? time.end : due;
 }
 
+/// The longest step that does not pass the next output, s.
 double Recorder::longest_step() const
 {
     return output_time(next_output_) - simulation_.time();
 }
 
-void Recorder::after_step()
+/// The places where a checkpoint can be, whatever the clock says.
+void Recorder::settle()
 {
-    const std::uint64_t steps = simulation_.steps();
-    if (const auto problem =
-            guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time());
-        problem && simulation_.last_binding() != "output")
-        return stop(*problem);
-    const bool output_due = simulation_.last_binding() == "output";
-    if (steps % steps_between_guards == 0 || output_due)
-        if (const auto problem = guards_->check(simulation_.time())) return stop(*problem);
-    if (output_due) {
+    simulation_.settle();
+    settled_step_ = simulation_.steps();
+}
+
+void Recorder::step()
+{
+    if (const auto problem = simulate()) return stop(*problem);
+    if (output_is_due()) {
         write_snapshot_now();
         if (output_time(next_output_) >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
         ++next_output_;
     }
-    if (steps % steps_between_history_rows == 0) add_history_row();
-    // The places where a checkpoint can be, whatever the clock says.
+    if (history_is_due()) add_history_row();
     if (simulation_.due_to_settle()) {
-        simulation_.settle();
+        settle();
         if (!ending_ && (stop_requested() || checkpoints_->due())) write_checkpoint();
         if (!ending_ && stop_requested()) ending_ = Ending::interrupted;
     }
-    progress_->update(simulation_.time(), steps);
+    const TimedScope timed(output_seconds_);
+    progress_->update(simulation_.time(), simulation_.steps());
 }
 
-void Recorder::write_snapshot_now()
+/// Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
+void Recorder::bring_standing_to_rest()
 {
-    // Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
     Particles& particles = simulation_.particles();
     const ScalarField& mobility = particles.scalar("mobility");
     for (Index i = 0; i < particles.count(); ++i)
         if (mobility[i] == 0.0) particles.velocity.set(i, {});
-    fields_->write(particles, simulation_.time());
+}
+
+void Recorder::write_snapshot_now()
+{
+    const TimedScope timed(output_seconds_);
+    bring_standing_to_rest();
+    fields_->write(simulation_.particles(), simulation_.time());
 }
 
 void Recorder::write_checkpoint()
 {
+    const TimedScope timed(output_seconds_);
     RunState state;
     state.time = simulation_.time();
     state.step = simulation_.steps();
@@ -205,7 +188,13 @@ void Recorder::write_checkpoint()
     state.numbers["recorder.next_output"] = static_cast<double>(next_output_);
     state.numbers["recorder.wall_s"] = cost_->wall_seconds();
     state.numbers["recorder.cpu_s"] = cost_->cpu_seconds();
+    state.numbers["recorder.output_s"] = output_seconds_;
+    state.numbers["recorder.guards_s"] = guard_seconds_;
+    const SnapshotList snapshots = fields_->until(state.time);
+    state.arrays["snapshots.times"] = snapshots.times;
+    state.arrays["snapshots.numbers"] = snapshots.numbers;
     history_->flush();
+    fields_->flush();
     checkpoints_->write(simulation_.particles(), state);
 }
 
@@ -238,8 +227,18 @@ double Recorder::primary_volume() const
     });
 }
 
+void Recorder::update_books()
+{
+    if (!simulation_.flow()) return;
+    mass_.end = total_mass();
+    volume_.end = primary_volume();
+    greatest_volume_error_ = std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
+}
+
 void Recorder::add_history_row()
 {
+    const TimedScope timed(output_seconds_);
+    update_books();
     const Particles& particles = simulation_.particles();
     std::vector<double> row{simulation_.time(), static_cast<double>(simulation_.steps()), simulation_.last_time_step(),
                             static_cast<double>(simulation_.neighbourhood().moving_particles().size())};
@@ -253,10 +252,6 @@ void Recorder::add_history_row()
             const Vector v = particles.velocity[i];
             return 0.5 * particles.mass[i] * dot(v, v);
         });
-        mass_.end = total_mass();
-        volume_.end = primary_volume();
-        greatest_volume_error_ =
-            std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
         row.insert(row.end(), {kinetic, std::sqrt(greatest), mass_.end, volume_.end, simulation_.escaped_mass(),
                                greatest_density_error_now()});
     }
@@ -269,19 +264,29 @@ void Recorder::add_history_row()
     history_->add(row);
 }
 
-void Recorder::stop(const Diagnosis& diagnosis)
+RunCost Recorder::cost_so_far() const
 {
-    diagnosis_ = diagnosis.line();
-    log_->error("{}", diagnosis_);
-    write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
-    ending_ = Ending::stopped;
+    RunCost cost;
+    cost.threads = options_.threads;
+    cost.steps = simulation_.steps();
+    cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
+    cost.element_updates = static_cast<double>(simulation_.updates());
+    cost.time_step_binding = simulation_.binding_limits();
+    cost.output_seconds = output_seconds_;
+    cost.guard_seconds = guard_seconds_;
+    cost.measure(*cost_);
+    return cost;
 }
 
 Ending Recorder::finish()
 {
-    // An interrupted run has just written the row of its checkpoint; the resumed one goes on from there.
-    if (*ending_ != Ending::interrupted) add_history_row();
-    history_->flush();
+    // A step may already have its row; a stopped run ends with that of its last good state.
+    if (*ending_ == Ending::completed && !history_is_due()) add_history_row();
+    {
+        const TimedScope timed(output_seconds_);
+        history_->flush();
+        fields_->flush();
+    }
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {
         log_->warn("interrupted at t = {:.6g} s; a checkpoint is kept, go on with --resume", simulation_.time());
@@ -305,15 +310,10 @@ Ending Recorder::finish()
             {"evaporation", books.evaporation},       {"radiation", books.radiation},
             {"convection", books.convection}};
     }
-    record.cost.threads = options_.threads;
-    record.cost.steps = simulation_.steps();
-    record.cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
-    record.cost.element_updates = static_cast<double>(simulation_.updates());
-    record.cost.time_step_binding = simulation_.binding_limits();
-    record.cost.measure(*cost_);
+    record.cost = *ending_ == Ending::stopped ? cost_when_stopped_ : cost_so_far();
     write_record(folder_.record(), record);
     log_->info("{} after {} steps, {:.1f} CPU s", *ending_ == Ending::completed ? "completed" : "stopped",
-               simulation_.steps(), record.cost.cpu_seconds);
+               record.cost.steps, record.cost.cpu_seconds);
     return *ending_;
 }
 

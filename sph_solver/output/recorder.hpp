@@ -31,23 +31,34 @@ public:
     /// that is written.
     bool finished() const { return ending_.has_value(); }
 
-    /// The longest step that does not pass the next output, s.
-    double longest_step() const;
-
-    /// After each step: guards, output, checkpoints. Throws OutputError.
-    void after_step();
+    /// A step of the simulation, then guards, output and checkpoints where they are due. Throws OutputError.
+    void step();
 
     /// Writes the record where the run completed or stopped; says how it ended. Throws OutputError.
     Ending finish();
 
 private:
+    static constexpr std::uint64_t steps_between_history_rows = 50;
+
+    GuardLimits guard_limits() const;
     void begin();
     void resume(const std::filesystem::path& checkpoint);
+    RunState load(const std::filesystem::path& checkpoint);
     void announce() const;
+    std::optional<Diagnosis> simulate();
+    std::optional<Diagnosis> problem_after_step();
+    bool output_is_due() const { return simulation_.last_binding() == "output"; }
+    bool history_is_due() const { return simulation_.steps() % steps_between_history_rows == 0; }
+    void settle();
+    void bring_standing_to_rest();
     void write_snapshot_now();
     void write_checkpoint();
+    void update_books();
     void add_history_row();
     void stop(const Diagnosis& diagnosis);
+    void return_to_last_good_state();
+    RunCost cost_so_far() const;
+    double longest_step() const;
     double output_time(std::uint64_t number) const;
     double primary_volume() const;
     double total_mass() const;
@@ -66,9 +77,13 @@ private:
     std::optional<Guards> guards_;
     Ledger mass_, volume_;
     double greatest_volume_error_ = 0.0;
+    double output_seconds_ = 0.0, guard_seconds_ = 0.0; ///< of wall time
     std::uint64_t next_output_ = 1;
+    std::uint64_t step_ = 0;         ///< number of the step under way or just made
+    std::uint64_t settled_step_ = 0; ///< of the last one after which the run settled
     std::optional<Ending> ending_;
     std::string diagnosis_;
+    RunCost cost_when_stopped_;
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

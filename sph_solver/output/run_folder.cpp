@@ -32,6 +32,7 @@ RunFolder open_run_folder(const fs::path& folder, bool resume)
     create_folder(run.fields());
     create_folder(run.checkpoints());
     remove_file(run.stopped_fields());
+    remove_file(run.last_good_fields());
     if (resume) return run;
     remove_outputs(run.fields(), {".vtp", ".pvd", ".beside"});
     remove_outputs(run.checkpoints(), {".h5", ".beside"});

@@ -15,8 +15,9 @@ struct RunFolder
     std::filesystem::path history() const { return folder / "history.csv"; }
     std::filesystem::path log() const { return folder / "log.txt"; }
     std::filesystem::path record() const { return folder / "run.json"; }
-    /// The particles as they were when a guard stopped the run.
+    /// The particles as they were when a guard stopped the run, and the last state that all guards had passed.
     std::filesystem::path stopped_fields() const { return fields() / "stopped.vtp"; }
+    std::filesystem::path last_good_fields() const { return fields() / "last_good.vtp"; }
 };
 
 /// Makes the folders, and removes the record of an earlier run first of all, so that nothing of it can be taken for

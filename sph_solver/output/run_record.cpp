@@ -67,6 +67,8 @@ nlohmann::ordered_json cost_as_json(const RunCost& cost)
     const double core_seconds = cost.wall_seconds * cost.threads;
     return {{"wall_s", number(cost.wall_seconds)},
             {"cpu_s", number(cost.cpu_seconds)},
+            {"output_s", number(cost.output_seconds)},
+            {"guards_s", number(cost.guard_seconds)},
             {"threads", cost.threads},
             {"steps", cost.steps},
             {"elements", cost.elements},

@@ -34,10 +34,28 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+/// Adds the wall time from its construction to the end of its scope to a sum, s. It costs two looks at the clock.
+class TimedScope
+{
+public:
+    explicit TimedScope(double& seconds) : seconds_(seconds) {}
+    ~TimedScope() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    TimedScope(const TimedScope&) = delete;
+    TimedScope& operator=(const TimedScope&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    double& seconds_;
+    Clock::time_point start_ = Clock::now();
+};
+
 struct RunCost
 {
     double wall_seconds = 0;
     double cpu_seconds = 0;
+    double output_seconds = 0; ///< of the wall time: snapshots, history, checkpoints, progress
+    double guard_seconds = 0;  ///< of the wall time: the guards
     int threads = 1;
     std::uint64_t steps = 0;
     std::uint64_t elements = 0; ///< particles

@@ -8,10 +8,8 @@ Ending run_case(const Case& definition, const RecorderOptions& options)
 {
     Simulation simulation(place_particles(definition));
     Recorder recorder(simulation, options);
-    while (!recorder.finished()) {
-        simulation.step(recorder.longest_step());
-        recorder.after_step();
-    }
+    while (!recorder.finished())
+        recorder.step();
     return recorder.finish();
 }
 

@@ -26,7 +26,8 @@ case["time"] = {{"end": 0.02, "output_interval": 0.01}}
 print(json.dumps(synthetic.with_hash(case)))
 """
 
-# Behaviours: good, crash, stop, refuse, silent, slow (interruptible, leaves a checkpoint).
+# Behaviours: good, crash, stop, refuse, silent, slow (interruptible, leaves a checkpoint), full (of its disk, the first
+# time), vanish (waits until its folder is not there any more).
 SOLVER = """#!/usr/bin/python3
 import sys
 sys.path[:0] = [{root!r}]
@@ -42,10 +43,21 @@ if behaviour == "crash":
 if behaviour == "refuse":
     print("case.json: laser.power: must be positive", file=sys.stderr)
     sys.exit(2)
-def interrupted(number, frame):
+def leave_checkpoint():
     (folder / "checkpoints").mkdir(exist_ok=True)
     (folder / "checkpoints" / "checkpoint_000001.h5").write_text("state")
+def interrupted(number, frame):
+    leave_checkpoint()
     sys.exit(130)
+if behaviour == "full" and not resume:
+    leave_checkpoint()
+    print("cupel_sph: fields_000007.vtp: cannot be written: the disk is full; free some space, then go on with --resume", file=sys.stderr)
+    sys.exit(1)
+while behaviour == "vanish":
+    if not folder.exists():
+        print(f"cupel_sph: {{folder}}/history.csv: cannot be written: the folder or file is not there", file=sys.stderr)
+        sys.exit(1)
+    time.sleep(0.01)
 signal.signal(signal.SIGINT, interrupted)
 signal.signal(signal.SIGTERM, interrupted)
 if behaviour == "slow" and not resume:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 
+import pytest
 from tests.conftest import PYTHON, ROOT
 
 
@@ -119,6 +120,34 @@ def test_killing_the_command_line_lets_solvers_leave_a_checkpoint_and_no_result(
         time.sleep(0.05)
     assert not (run_case.folder / "result.json").exists()
     assert (run_case.results / ".previous" / "odd_drop" / "sph" / "v" / "result.json").exists()
+
+
+def test_a_run_whose_disk_was_full_says_so_and_goes_on_from_its_checkpoint(run_case):
+    done = run_case("--set", "behaviour=full")
+    assert done.returncode == 1 and "the disk is full; free some space, then go on with --resume" in done.stderr
+    assert json.loads((run_case.folder / "result.json").read_text())["status"] == "failed"
+
+    done = run_case("--set", "behaviour=full", "--resume")
+    assert done.returncode == 0, done.stderr
+    assert (run_case.folder / "started.txt").read_text().split() == ["fresh", "resumed"]
+    assert json.loads((run_case.folder / "result.json").read_text())["status"] == "completed"
+
+
+def test_a_failed_run_without_a_checkpoint_is_started_afresh(run_case):
+    assert run_case("--set", "behaviour=crash").returncode == 1
+    assert run_case("--set", "behaviour=crash", "--resume").returncode == 1
+    assert "resumed" not in (run_case.folder / "started.txt").read_text()
+
+
+@pytest.mark.parametrize("what", ["result", "results"])
+def test_a_folder_that_vanishes_ends_in_the_solvers_line(run_case, what):
+    process = start(run_case, "--set", "behaviour=vanish")
+    lost = run_case.folder if what == "result" else run_case.results
+    lost.rename(run_case.results.parent / "elsewhere")
+    _, messages = process.communicate(timeout=60)
+    assert process.returncode == 1 and "Traceback" not in messages, messages
+    assert "history.csv: cannot be written: the folder or file is not there" in messages
+    assert not lost.exists()
 
 
 def start_after_removal(run_case) -> subprocess.Popen:

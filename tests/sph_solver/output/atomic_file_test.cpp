@@ -29,6 +29,18 @@ TEST_F(AtomicFile, KeepsEveryByte)
     EXPECT_EQ(read_whole(folder / "bytes"), content);
 }
 
+TEST_F(AtomicFile, FlushedLaterIsWholeAllTheSame)
+{
+    const auto file = folder / "field.vtp";
+    write_whole(file, "old");
+    write_whole(file, "new", Flush::later);
+    EXPECT_EQ(read_whole(file), "new");
+    EXPECT_FALSE(std::filesystem::exists(beside(file)));
+    flush_to_disk(file);
+    flush_to_disk(folder);
+    flush_to_disk(folder / "removed");
+}
+
 TEST_F(AtomicFile, FullDiskLeavesTheOldFileAndNothingBeside)
 {
     const auto file = folder / "field.vtp";

@@ -148,8 +148,8 @@ TEST_F(CheckpointFile, OtherVersionIsRefused)
 
 TEST_F(CheckpointFile, OtherFormatIsRefused)
 {
-    tamper([](std::string& bytes) { bytes[bytes.find("format 1") + 7] = '2'; });
-    EXPECT_TRUE(one_line_with(refusal(), {file.string(), "format '2'", "format 1"}));
+    tamper([](std::string& bytes) { bytes[bytes.find("format 2") + 7] = '1'; });
+    EXPECT_TRUE(one_line_with(refusal(), {file.string(), "format '1'", "format 2"}));
 }
 
 TEST_F(CheckpointFile, MissingAndUnknownFieldsAreRefused)

@@ -129,6 +129,43 @@ TEST(Guard, WallParticlesOnlyNeedNumbers)
     EXPECT_TRUE(scene.check().has_value());
 }
 
+TEST(Guard, SolidParticlesNeedATemperatureAsWell)
+{
+    // Metal that stands as a film has the kind of a solid, however hot it is.
+    SoundScene scene;
+    scene.particles.kind[faulty] = Kind::solid;
+    scene.particles.position.set(faulty, {0.0, 0.0, -1e-4});
+    scene.particles.density[faulty] = 20000.0;
+    scene.particles.velocity.set(faulty, {100.0, 0.0, 0.0});
+    EXPECT_FALSE(scene.check().has_value());
+    (*scene.temperature)[faulty] = 6001.0;
+    const auto diagnosis = scene.check();
+    ASSERT_TRUE(diagnosis.has_value());
+    EXPECT_EQ(diagnosis->model, "heat");
+    EXPECT_EQ(diagnosis->identity, faulty);
+}
+
+TEST(Guard, WhereEverythingStandsNoFaultIsOverlooked)
+{
+    const std::vector<std::function<void(SoundScene&)>> faults{
+        [](SoundScene& s) { s.particles.position.x[faulty] = not_a_number; },
+        [](SoundScene& s) { s.particles.velocity.z[faulty] = infinite; },
+        [](SoundScene& s) { s.particles.density[faulty] = -infinite; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = not_a_number; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = 6001.0; },
+        [](SoundScene& s) { (*s.temperature)[faulty] = 199.0; }};
+    for (std::size_t k = 0; k < faults.size(); ++k) {
+        SoundScene scene;
+        for (Index i = 0; i < count; ++i)
+            if (i != 3) scene.particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
+        EXPECT_FALSE(scene.check().has_value());
+        faults[k](scene);
+        const auto diagnosis = scene.check();
+        ASSERT_TRUE(diagnosis.has_value()) << "fault " << k;
+        EXPECT_EQ(diagnosis->identity, faulty);
+    }
+}
+
 TEST(Guard, SceneWithoutTemperatureIsChecked)
 {
     Particles particles(4);

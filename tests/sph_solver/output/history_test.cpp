@@ -91,6 +91,19 @@ TEST_F(HistoryFile, FullDiskLeavesWholeRowsAndLosesNone)
     EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), 1002);
 }
 
+TEST_F(HistoryFile, RowsThatNobodyFlushesDoNotFillTheMemory)
+{
+    History history(folder / "history.csv", columns);
+    constexpr int rows = 20'000; // a megabyte
+    for (int k = 0; k < rows; ++k)
+        add(history, 0.001 * k, 1.0 / 3.0);
+    const auto written = std::filesystem::file_size(folder / "history.csv");
+    history.flush();
+    EXPECT_LE(std::filesystem::file_size(folder / "history.csv") - written, 1U << 16);
+    const std::string after = text();
+    EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), rows + 1);
+}
+
 TEST_F(HistoryFile, VanishedFolderIsReported)
 {
     History history(folder / "history.csv", columns);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <thread>
 
 #include "output/progress.hpp"
 #include "output/run_folder.hpp"
@@ -28,6 +29,8 @@ RunRecord some_record()
     record.cost.elements = 50;
     record.cost.element_updates = 5000;
     record.cost.wall_seconds = 5.0;
+    record.cost.output_seconds = 0.25;
+    record.cost.guard_seconds = 0.05;
     record.cost.time_step_binding = {{"acoustic", 90}, {"viscous", 10}};
     return record;
 }
@@ -52,6 +55,8 @@ TEST_F(RunRecordFile, HoldsWhatTheResultNeeds)
     EXPECT_DOUBLE_EQ(read["ledgers"]["energy"]["closure"], 0.5 / 3.0);
     EXPECT_DOUBLE_EQ(read["cost"]["updates_per_core_s"], 500.0);
     EXPECT_EQ(read["cost"]["time_step_binding"]["viscous"], 10);
+    EXPECT_EQ(read["cost"]["output_s"], 0.25);
+    EXPECT_EQ(read["cost"]["guards_s"], 0.05);
     EXPECT_FALSE(read["host"]["name"].get<std::string>().empty());
     EXPECT_GE(read["host"]["cores"], 1);
 }
@@ -86,6 +91,17 @@ TEST_F(RunRecordFile, CostOfThePartsOfARunAddsUp)
     EXPECT_GE(cost.cpu_seconds, 2000.019);
     EXPECT_LT(cost.cpu_seconds, 2010.0);
     EXPECT_GT(cost.peak_bytes, 1e6);
+}
+
+TEST(TimedScopes, AddUpTheTimeSpentInThem)
+{
+    double seconds = 10.0;
+    for (int k = 0; k < 2; ++k) {
+        const TimedScope timed(seconds);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_GE(seconds, 10.02);
+    EXPECT_LT(seconds, 15.0);
 }
 
 TEST(LedgerBooks, ClosureIsWhatTheyDoNotExplain)
