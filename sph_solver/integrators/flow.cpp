@@ -8,7 +8,6 @@
 #include "models/artificial_viscosity.hpp"
 #include "models/recoil_pressure.hpp"
 #include "models/surface_temperature.hpp"
-#include "models/wall_extrapolation.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -49,14 +48,18 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-void Flow::extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull)
+WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
 {
     const bool walls = particles_.has("wall_normal");
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
-                  WallExtrapolation{mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind,
-                                    walls ? &particles_.vector("wall_normal") : nullptr,
-                                    walls ? &particles_.scalar("wall_free_slip") : nullptr, particles_.pressure,
-                                    particles_.velocity});
+    return {mobility_,
+            particles_.density,
+            gravity_,
+            walls_may_pull,
+            particles_.kind,
+            walls ? &particles_.vector("wall_normal") : nullptr,
+            walls ? &particles_.scalar("wall_free_slip") : nullptr,
+            particles_.pressure,
+            particles_.velocity};
 }
 
 void Flow::add_remedies(const Neighbourhood& neighbourhood)

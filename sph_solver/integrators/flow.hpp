@@ -10,6 +10,7 @@
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
 #include "models/vapour_pressure.hpp"
+#include "models/wall_extrapolation.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -41,7 +42,8 @@ public:
 protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
-    void extrapolate_to_walls(const Neighbourhood& neighbourhood, bool walls_may_pull);
+    /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
+    WallExtrapolation wall_extrapolation(bool walls_may_pull);
     /// Adds the optional pair forces that the case switches on to force_.
     void add_remedies(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.

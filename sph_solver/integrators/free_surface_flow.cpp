@@ -69,15 +69,6 @@ void FreeSurfaceFlow::reset(Index place)
     (*balance_)[place] = 1.0;
 }
 
-/// What the exchange by shifting needs beforehand: the shifting velocity of walls and each particle's say in it.
-void FreeSurfaceFlow::prepare_exchange(const Neighbourhood& neighbourhood)
-{
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), WallShift{mobility_, *shift_});
-    const double lattice_mass = rest_density_ * scene_.particle_volume();
-    neighbourhood.for_each_moving(
-        [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
-}
-
 /// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
@@ -94,7 +85,9 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
                       exchanges...);
     };
     if (!shift_) return sum();
-    prepare_exchange(neighbourhood);
+    const double lattice_mass = rest_density_ * scene_.particle_volume();
+    neighbourhood.for_each_moving(
+        [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
     const ShiftingExchange exchange{mobility_, particles_.volume, particles_.density, particles_.velocity,  *shift_,
                                     *balance_, density_rate_,     *mass_rate_,        *shift_momentum_rate_};
     if (!enthalpy_) return sum(exchange);
@@ -170,8 +163,13 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
     }
 }
 
-void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
+/// Walls and solids as the liquid before them sees them: their pressure, and from it their volume, their velocity and
+/// whatever else is summed with them.
+template <class... Others>
+void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others)
 {
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_extrapolation(false),
+                  others...);
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
@@ -184,8 +182,10 @@ void FreeSurfaceFlow::give_walls_volume(const Neighbourhood& neighbourhood)
 
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    extrapolate_to_walls(neighbourhood, false);
-    give_walls_volume(neighbourhood);
+    if (shift_)
+        extrapolate_to_walls(neighbourhood, WallShift{mobility_, *shift_});
+    else
+        extrapolate_to_walls(neighbourhood);
     sum_over_places(neighbourhood);
 
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
@@ -203,8 +203,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
     });
-    extrapolate_to_walls(neighbourhood, false);
-    give_walls_volume(neighbourhood);
+    extrapolate_to_walls(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);

@@ -19,11 +19,10 @@ public:
 private:
     void start_hydrostatic();
     void sum_over_places(const Neighbourhood& neighbourhood);
-    void prepare_exchange(const Neighbourhood& neighbourhood);
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
-    void give_walls_volume(const Neighbourhood& neighbourhood);
+    template <class... Others> void extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others);
 
     CorrectionMatrix correction_;
     ScalarField& density_rate_;

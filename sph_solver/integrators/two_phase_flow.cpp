@@ -40,7 +40,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
         const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
         particles_.pressure[i] = stiffness_ * (particles_.density[i] / rest - 1.0);
     });
-    extrapolate_to_walls(neighbourhood, true);
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true));
     const double lattice_volume = scene_.particle_volume();
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);

@@ -32,6 +32,21 @@ concept HasFar = requires(const Term& term, Index j)
     term.far(j);
 };
 
+/// A term that takes nothing from some neighbours, most of them perhaps, says so of one: `bool ignores(Far) const`.
+template <class Term>
+concept Ignores = HasFar<Term> && requires(const Term& term, Index j)
+{
+    term.ignores(term.far(j));
+};
+
+template <class Term> bool ignores(const Term& term, [[maybe_unused]] const auto& far)
+{
+    if constexpr (Ignores<Term>)
+        return term.ignores(far);
+    else
+        return false;
+}
+
 template <class Term> auto far_of(const Term& term, Index j)
 {
     if constexpr (HasFar<Term>)
@@ -62,6 +77,7 @@ void release_pass_memory();
 ///   Near near(Index first) const             loads it
 ///   Far far(Index j) const                   the same for a neighbour
 ///   bool idle(Cluster) const                 true where the term has nothing to do for this cluster
+///   bool ignores(const Far&) const           if there is one: true for a neighbour that adds nothing to the sum
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
 ///
@@ -99,13 +115,22 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                         const Record& other = neighbour(j);
                         Pair pair;
                         pair.offset = surroundings.next_offset(other.place);
+                        const bool counts = [&]<std::size_t... t>(std::index_sequence<t...>)
+                        {
+                            return !(ignores(terms, std::get<t>(other.far)) && ...);
+                        }
+                        (std::index_sequence_for<Terms...>{});
+                        if (!counts) continue;
                         pair.square = dot(pair.offset, pair.offset) + tiny;
                         const auto w = kernel.of_square(pair.square);
                         pair.kernel = w.value;
                         pair.gradient_over_r = w.gradient_over_r;
                         [&]<std::size_t... t>(std::index_sequence<t...>)
                         {
-                            (terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums)), ...);
+                            ((ignores(terms, std::get<t>(other.far))
+                                  ? void()
+                                  : terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums))),
+                             ...);
                         }
                         (std::index_sequence_for<Terms...>{});
                     }

@@ -118,6 +118,15 @@ std::optional<Diagnosis> Guards::check(double time) const
     return diagnose(particles_->place_of(found), time);
 }
 
+std::optional<Diagnosis> Guards::check(double time, std::span<const Index> among) const
+{
+    Index found = std::numeric_limits<Index>::max();
+    for (const Index i : among)
+        if (!sound(i)) found = std::min(found, particles_->identity[static_cast<std::size_t>(i)]);
+    if (found == std::numeric_limits<Index>::max()) return {};
+    return diagnose(particles_->place_of(found), time);
+}
+
 Diagnosis Guards::diagnose(Index i, double time) const
 {
     const Vector position = particles_->position[i];

@@ -154,9 +154,9 @@ struct WallShift
     bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
     Near near(Index) const { return {}; }
     Far far(Index j) const { return {real(mobility.weight[j]), real(shift[j])}; }
+    bool ignores(const Far& j) const { return j.liquid == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (j.liquid == 0) return;
         sum.weight += pair.kernel;
         sum.shift += pair.kernel * broadcast(j.shift);
     }

@@ -108,6 +108,7 @@ struct NormalSmoothing
     {};
     struct Far
     {
+        Real weight; ///< δ_j, 0 where there is no surface
         VectorOf<Real> weighted_normal;
     };
     struct Sum
@@ -120,7 +121,12 @@ struct NormalSmoothing
         return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
     }
     Near near(Index) const { return {}; }
-    Far far(Index j) const { return {real(std::max(0.0, surface.delta[j]) * surface.normal[j])}; }
+    Far far(Index j) const
+    {
+        const double weight = std::max(0.0, surface.delta[j]);
+        return {real(weight), real(weight * surface.normal[j])};
+    }
+    bool ignores(const Far& j) const { return j.weight == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.normal += pair.kernel * broadcast(j.weighted_normal);
@@ -163,6 +169,7 @@ struct SurfaceNeighbourhood
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const { return {real(mobility.weight[j] * surface.in_band[j])}; }
+    bool ignores(const Far& j) const { return j.at_surface == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const { sum.found += j.at_surface * pair.kernel; }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -223,9 +230,9 @@ struct TangentPlaneCurvature
         const double delta = surface.delta[j];
         return {real(delta >= smallest_delta ? -volume[j] * delta : 0.0), real(surface.normal[j])};
     }
+    bool ignores(const Far& j) const { return j.weight == 0; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (j.weight == 0) return;
         const Lanes weight = j.weight * pair.gradient_over_r;
         const VectorLanes change = broadcast(j.normal) - i.normal;
         const Lanes x1 = -dot(pair.offset, i.tangent_1), x2 = -dot(pair.offset, i.tangent_2);
@@ -291,6 +298,7 @@ struct CurvatureSmoothing
         const double weight = surface.curvature_valid[j] * surface.delta[j];
         return {real(weight), real(weight * surface.raw_curvature[j])};
     }
+    bool ignores(const Far& j) const { return j.weight == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.curvature += j.weighted_curvature * pair.kernel;

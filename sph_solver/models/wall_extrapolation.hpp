@@ -48,9 +48,9 @@ struct WallExtrapolation
     {
         return {real(mobility.weight[j]), real(pressure[j]), real(density[j]), real(velocity[j])};
     }
+    bool ignores(const Far& j) const { return j.liquid == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (j.liquid == 0) return;
         sum.weight += pair.kernel;
         sum.pressure += j.pressure * pair.kernel;
         sum.head += (j.density * pair.kernel) * pair.offset;

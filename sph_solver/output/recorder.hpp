@@ -79,8 +79,9 @@ private:
     double greatest_volume_error_ = 0.0;
     double output_seconds_ = 0.0, guard_seconds_ = 0.0; ///< of wall time
     std::uint64_t next_output_ = 1;
-    std::uint64_t step_ = 0;         ///< number of the step under way or just made
-    std::uint64_t settled_step_ = 0; ///< of the last one after which the run settled
+    std::uint64_t step_ = 0;            ///< number of the step under way or just made
+    std::uint64_t guarded_updates_ = 0; ///< when all particles were last looked at
+    std::uint64_t settled_step_ = 0;    ///< of the last one after which the run settled
     std::optional<Ending> ending_;
     std::string diagnosis_;
     RunCost cost_when_stopped_;

@@ -10,7 +10,9 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-constexpr std::uint64_t steps_between_guards = 10;
+/// What moves is looked at every ten steps, everything after ten updates of as many particles as there are: what stands
+/// only changes by heat, and rarely.
+constexpr std::uint64_t steps_between_guards = 10, updates_between_guards = 10;
 
 /// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
 /// against a wall at a tenth of the artificial speed of sound is compressed by a fifth for an instant (water hammer).
@@ -73,8 +75,15 @@ std::optional<Diagnosis> Recorder::problem_after_step()
                 guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time()))
             return problem;
     // What the run settles with has passed the guards: it is a state to go back to.
-    if (step_ % steps_between_guards != 0 && !output_is_due() && !simulation_.due_to_settle()) return {};
-    return guards_->check(simulation_.time());
+    const auto count = static_cast<std::uint64_t>(simulation_.particles().count());
+    if (output_is_due() || simulation_.due_to_settle() ||
+        simulation_.updates() - guarded_updates_ >= updates_between_guards * count)
+    {
+        guarded_updates_ = simulation_.updates();
+        return guards_->check(simulation_.time());
+    }
+    if (step_ % steps_between_guards != 0) return {};
+    return guards_->check(simulation_.time(), simulation_.neighbourhood().moving_particles());
 }
 
 void Recorder::stop(const Diagnosis& diagnosis)

@@ -118,6 +118,17 @@ TEST(Guard, FirstParticleByIdentityIsNamed)
     EXPECT_EQ(diagnosis->value, 2.0);
 }
 
+TEST(Guard, OfSomeParticlesOnlyThoseAreLookedAt)
+{
+    SoundScene scene;
+    scene.particles.density[10] = 1.0;
+    const std::vector<Index> others{1, 2, 3}, faulty_too{3, 10, 20};
+    const Guards guards(scene.particles, scene.limits);
+    EXPECT_FALSE(guards.check(0.0, others).has_value());
+    ASSERT_TRUE(guards.check(0.0, faulty_too).has_value());
+    EXPECT_EQ(guards.check(0.0, faulty_too)->identity, 10);
+}
+
 TEST(Guard, WallParticlesOnlyNeedNumbers)
 {
     SoundScene scene;
