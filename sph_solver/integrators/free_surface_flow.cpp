@@ -197,7 +197,8 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     neighbourhood.for_each_moving([&](Index i) {
         particles_.density[i] += time_step * density_rate_[i];
         // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
-        if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
+        // (At the start, where no time has passed, nobody has counted companions yet; a checkpoint has their numbers.)
+        if (surface_ && time_step > 0.0 && surface_->is_spray(i)) particles_.density[i] = rest_density_;
         particles_.density[i] =
             std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,9 @@ public:
     /// The first problem by particle identity (the same for any number of threads), if there is one. One pass over
     /// position, velocity, density and temperature.
     std::optional<Diagnosis> check(double time) const;
+
+    /// The same for some of the particles, given by their places.
+    std::optional<Diagnosis> check(std::span<const Index> places, double time) const;
 
     /// A time step [s] that is no positive number or below the smallest one; `binding` names its criterion.
     std::optional<Diagnosis> check_time_step(double time_step, std::string_view binding, double time) const;

@@ -46,7 +46,7 @@ private:
     RunState load(const std::filesystem::path& checkpoint);
     void announce() const;
     std::optional<Diagnosis> simulate();
-    std::optional<Diagnosis> problem_after_step();
+    std::optional<Diagnosis> problem_after_step(bool round_complete);
     bool output_is_due() const { return simulation_.last_binding() == "output"; }
     bool history_is_due() const { return simulation_.steps() % steps_between_history_rows == 0; }
     void settle();

@@ -166,6 +166,17 @@ TEST(Guard, WhereEverythingStandsNoFaultIsOverlooked)
     }
 }
 
+TEST(Guard, SomeParticlesAreCheckedAlone)
+{
+    SoundScene scene;
+    const Guards guards(scene.particles, scene.limits);
+    const std::vector<Index> some{5, faulty, 40}, others{4, 5, 6};
+    scene.particles.velocity.x[faulty] = 10.001;
+    EXPECT_FALSE(guards.check(others, time_now).has_value());
+    ASSERT_TRUE(guards.check(some, time_now).has_value());
+    EXPECT_EQ(guards.check(some, time_now)->identity, faulty);
+}
+
 TEST(Guard, SceneWithoutTemperatureIsChecked)
 {
     Particles particles(4);
