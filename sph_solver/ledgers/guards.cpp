@@ -118,12 +118,15 @@ std::optional<Diagnosis> Guards::check(double time) const
     return diagnose(particles_->place_of(found), time);
 }
 
-std::optional<Diagnosis> Guards::check(double time, std::span<const Index> among) const
+std::optional<Diagnosis> Guards::check(std::span<const Index> places, double time) const
 {
-    Index found = std::numeric_limits<Index>::max();
-    for (const Index i : among)
-        if (!sound(i)) found = std::min(found, particles_->identity[static_cast<std::size_t>(i)]);
-    if (found == std::numeric_limits<Index>::max()) return {};
+    constexpr Index none = std::numeric_limits<Index>::max();
+    const std::size_t count = places.size();
+    Index found = none;
+#pragma omp parallel for schedule(static) reduction(min : found)
+    for (std::size_t k = 0; k < count; ++k)
+        if (!sound(places[k])) found = std::min(found, particles_->identity[static_cast<std::size_t>(places[k])]);
+    if (found == none) return {};
     return diagnose(particles_->place_of(found), time);
 }
 

@@ -62,8 +62,8 @@ public:
     /// position, velocity, density and temperature.
     std::optional<Diagnosis> check(double time) const;
 
-    /// The same of some particles (their places) only.
-    std::optional<Diagnosis> check(double time, std::span<const Index> among) const;
+    /// The same for some of the particles, given by their places.
+    std::optional<Diagnosis> check(std::span<const Index> places, double time) const;
 
     /// A time step [s] that is no positive number or below the smallest one; `binding` names its criterion.
     std::optional<Diagnosis> check_time_step(double time_step, std::string_view binding, double time) const;

@@ -75,6 +75,12 @@ fs::path beside(const fs::path& path)
     return path.parent_path() / fmt::format(".{}.beside", path.filename().string());
 }
 
+void FileDescriptor::start_flush()
+{
+    // Where the system cannot, the flush that follows does all of it.
+    static_cast<void>(::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE));
+}
+
 void flush_to_disk(const fs::path& path)
 {
     std::error_code error;
@@ -88,7 +94,10 @@ void write_whole(const fs::path& path, std::string_view content, Flush flush)
         {
             FileDescriptor file(prepared, O_WRONLY | O_CREAT | O_TRUNC, "written", path);
             file.write(content);
-            if (flush == Flush::now) file.flush();
+            if (flush == Flush::now)
+                file.flush();
+            else
+                file.start_flush();
         }
         if (::rename(prepared.c_str(), path.c_str()) != 0) throw system_output_error(errno, path, "replaced");
     }

@@ -63,6 +63,8 @@ public:
     void write(std::string_view content);
     /// Waits until everything written is on the disk. Throws OutputError.
     void flush();
+    /// Has the system begin with that, and does not wait: a later flush finds most of it done.
+    void start_flush();
 
 private:
     std::filesystem::path shown_path_;

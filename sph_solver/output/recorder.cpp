@@ -80,7 +80,6 @@ RunState Recorder::load(const std::filesystem::path& file)
     const auto& numbers = loaded.state.numbers;
     simulation_.load(numbers);
     settle();
-    guarded_updates_ = simulation_.updates();
     mass_ = load_ledger("mass", numbers);
     volume_ = load_ledger("volume", numbers);
     greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");

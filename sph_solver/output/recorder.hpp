@@ -46,7 +46,7 @@ private:
     RunState load(const std::filesystem::path& checkpoint);
     void announce() const;
     std::optional<Diagnosis> simulate();
-    std::optional<Diagnosis> problem_after_step();
+    std::optional<Diagnosis> problem_after_step(bool round_complete);
     bool output_is_due() const { return simulation_.last_binding() == "output"; }
     bool history_is_due() const { return simulation_.steps() % steps_between_history_rows == 0; }
     void settle();
@@ -79,9 +79,8 @@ private:
     double greatest_volume_error_ = 0.0;
     double output_seconds_ = 0.0, guard_seconds_ = 0.0; ///< of wall time
     std::uint64_t next_output_ = 1;
-    std::uint64_t step_ = 0;            ///< number of the step under way or just made
-    std::uint64_t guarded_updates_ = 0; ///< when all particles were last looked at
-    std::uint64_t settled_step_ = 0;    ///< of the last one after which the run settled
+    std::uint64_t step_ = 0;         ///< number of the step under way or just made
+    std::uint64_t settled_step_ = 0; ///< of the last one after which the run settled
     std::optional<Ending> ending_;
     std::string diagnosis_;
     RunCost cost_when_stopped_;

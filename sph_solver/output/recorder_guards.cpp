@@ -10,9 +10,9 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-/// What moves is looked at every ten steps, everything after ten updates of as many particles as there are: what stands
-/// only changes by heat, and rarely.
-constexpr std::uint64_t steps_between_guards = 10, updates_between_guards = 10;
+/// Every so many steps the guards look at what moves, and after as many updates of every particle at all: so they cost
+/// the same share of a run in which a few dozen particles move as of one in which all do.
+constexpr std::uint64_t steps_between_guards = 10;
 
 /// Density may err by this before the run is called broken. A weakly compressible flow stays near 1 %; what is thrown
 /// against a wall at a tenth of the artificial speed of sound is compressed by a fifth for an instant (water hammer).
@@ -56,6 +56,11 @@ GuardLimits Recorder::guard_limits() const
 std::optional<Diagnosis> Recorder::simulate()
 {
     step_ = simulation_.steps() + 1;
+    const auto rounds = [&] {
+        return simulation_.updates() /
+               (steps_between_guards * static_cast<std::uint64_t>(simulation_.particles().count()));
+    };
+    const std::uint64_t rounds_before = rounds();
     try {
         simulation_.step(longest_step());
     }
@@ -65,25 +70,19 @@ std::optional<Diagnosis> Recorder::simulate()
         throw;
     }
     const TimedScope timed(guard_seconds_);
-    return problem_after_step();
+    return problem_after_step(rounds() != rounds_before);
 }
 
-std::optional<Diagnosis> Recorder::problem_after_step()
+std::optional<Diagnosis> Recorder::problem_after_step(bool round_complete)
 {
     if (!output_is_due())
         if (const auto problem =
                 guards_->check_time_step(simulation_.last_time_step(), simulation_.last_binding(), simulation_.time()))
             return problem;
     // What the run settles with has passed the guards: it is a state to go back to.
-    const auto count = static_cast<std::uint64_t>(simulation_.particles().count());
-    if (output_is_due() || simulation_.due_to_settle() ||
-        simulation_.updates() - guarded_updates_ >= updates_between_guards * count)
-    {
-        guarded_updates_ = simulation_.updates();
-        return guards_->check(simulation_.time());
-    }
+    if (round_complete || output_is_due() || simulation_.due_to_settle()) return guards_->check(simulation_.time());
     if (step_ % steps_between_guards != 0) return {};
-    return guards_->check(simulation_.time(), simulation_.neighbourhood().moving_particles());
+    return guards_->check(simulation_.neighbourhood().moving_particles(), simulation_.time());
 }
 
 void Recorder::stop(const Diagnosis& diagnosis)
