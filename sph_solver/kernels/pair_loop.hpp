@@ -106,34 +106,32 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                 const Index c = clusters[static_cast<std::size_t>(k)];
                 const Cluster cluster = list.cluster(c);
                 if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-                const auto runs = list.runs(c);
-                surroundings.centre_on(cluster.first, runs, place);
+                surroundings.centre_on(cluster.first, list.runs(c), place);
                 const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
                 std::tuple<typename Terms::Sum...> sums{};
-                for (const Run& run : runs)
-                    for (Index j = run.first; j < run.first + run.count; ++j) {
-                        const Record& other = neighbour(j);
-                        Pair pair;
-                        pair.offset = surroundings.next_offset(other.place);
-                        const bool counts = [&]<std::size_t... t>(std::index_sequence<t...>)
-                        {
-                            return !(ignores(terms, std::get<t>(other.far)) && ...);
-                        }
-                        (std::index_sequence_for<Terms...>{});
-                        if (!counts) continue;
-                        pair.square = dot(pair.offset, pair.offset) + tiny;
-                        const auto w = kernel.of_square(pair.square);
-                        pair.kernel = w.value;
-                        pair.gradient_over_r = w.gradient_over_r;
-                        [&]<std::size_t... t>(std::index_sequence<t...>)
-                        {
-                            ((ignores(terms, std::get<t>(other.far))
-                                  ? void()
-                                  : terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums))),
-                             ...);
-                        }
-                        (std::index_sequence_for<Terms...>{});
+                surroundings.for_each_neighbour([&](Index j) {
+                    const Record& other = neighbour(j);
+                    Pair pair;
+                    pair.offset = surroundings.next_offset(other.place);
+                    const bool counts = [&]<std::size_t... t>(std::index_sequence<t...>)
+                    {
+                        return !(ignores(terms, std::get<t>(other.far)) && ...);
                     }
+                    (std::index_sequence_for<Terms...>{});
+                    if (!counts) return;
+                    pair.square = dot(pair.offset, pair.offset) + tiny;
+                    const auto w = kernel.of_square(pair.square);
+                    pair.kernel = w.value;
+                    pair.gradient_over_r = w.gradient_over_r;
+                    [&]<std::size_t... t>(std::index_sequence<t...>)
+                    {
+                        ((ignores(terms, std::get<t>(other.far))
+                              ? void()
+                              : terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums))),
+                         ...);
+                    }
+                    (std::index_sequence_for<Terms...>{});
+                });
                 [&]<std::size_t... t>(std::index_sequence<t...>)
                 {
                     (terms.store(cluster, std::get<t>(near), std::get<t>(sums)), ...);

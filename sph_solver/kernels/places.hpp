@@ -63,10 +63,11 @@ public:
     /// place(j) gives a neighbour's, as a Place or as the position itself.
     template <class PlaceOf> void centre_on(Index first, std::span<const Run> runs, const PlaceOf& place)
     {
+        expand(runs);
         if constexpr (std::is_convertible_v<decltype(place(first)), Place>) {
             const Quanta origin = loaded(places_(first));
             take(
-                first, runs, [&](Index i) { return relative(places_(i), origin); },
+                first, [&](Index i) { return relative(places_(i), origin); },
                 [&](Index j) { return relative(place(j), origin); });
         }
         else {
@@ -75,10 +76,16 @@ public:
                 const Vector offset = places_.position()[j] - origin;
                 return Near{real(offset.x), real(offset.y), real(offset.z), 0};
             };
-            take(first, runs, relative_position, relative_position);
+            take(first, relative_position, relative_position);
         }
     }
-    /// To the neighbours in the order of the runs.
+    template <class Visit> void for_each_neighbour(const Visit& visit)
+    {
+        next_ = near_.data();
+        for (std::size_t k = 0; k < count_; ++k)
+            visit(neighbours_[k]);
+    }
+    /// To the neighbours in turn; to be called once for each.
     VectorLanes next_offset(const Place&)
     {
         const float* near = next_;
@@ -95,8 +102,26 @@ private:
     {
         return quantum_ * __builtin_convertvector(loaded(place) - origin, Near);
     }
-    template <class Own, class Others>
-    void take(Index first, std::span<const Run> runs, const Own& own, const Others& others)
+    /// The neighbours one by one: where one run ends and the next begins, no processor can foresee.
+    void expand(std::span<const Run> runs)
+    {
+        constexpr Index at_once = 16;
+        count_ = 0;
+        for (const Run& run : runs)
+            count_ += static_cast<std::size_t>(run.count);
+        if (neighbours_.size() < count_ + at_once) {
+            neighbours_.resize(2 * (count_ + at_once));
+            near_.resize(4 * neighbours_.size());
+        }
+        Index* next = neighbours_.data();
+        for (const Run& run : runs) {
+            for (Index begin = 0; begin < run.count; begin += at_once)
+                for (Index k = begin; k < begin + at_once; ++k)
+                    next[k] = run.first + k;
+            next += run.count;
+        }
+    }
+    template <class Own, class Others> void take(Index first, const Own& own, const Others& others)
     {
         Lanes::Register x{}, y{}, z{};
         for (int lane = 0; lane < lane_count; ++lane) {
@@ -106,22 +131,18 @@ private:
             z[lane] = near[2];
         }
         here_ = {Lanes(x), Lanes(y), Lanes(z)};
-        std::size_t count = 0;
-        for (const Run& run : runs)
-            count += static_cast<std::size_t>(run.count);
-        if (near_.size() < 4 * count) near_.resize(4 * count);
         float* next = near_.data();
-        for (const Run& run : runs)
-            for (Index j = run.first; j < run.first + run.count; ++j, next += 4) {
-                const Near near = others(j);
-                std::memcpy(next, &near, sizeof near);
-            }
-        next_ = near_.data();
+        for (std::size_t k = 0; k < count_; ++k, next += 4) {
+            const Near near = others(neighbours_[k]);
+            std::memcpy(next, &near, sizeof near);
+        }
     }
 
     const Places& places_;
     float quantum_;
     VectorLanes here_;
+    std::size_t count_ = 0;
+    std::vector<Index> neighbours_;
     const float* next_ = nullptr;
     std::vector<float> near_; ///< x, y, z and nothing, of each neighbour in turn
 };
@@ -149,14 +170,22 @@ class Surroundings
 public:
     explicit Surroundings(const Places& places) : places_(places) {}
 
-    template <class PlaceOf> void centre_on(Index first, std::span<const Run>, const PlaceOf&)
+    template <class PlaceOf> void centre_on(Index first, std::span<const Run> runs, const PlaceOf&)
     {
+        runs_ = runs;
         here_ = lanes(places_.position(), first);
+    }
+    template <class Visit> void for_each_neighbour(const Visit& visit) const
+    {
+        for (const Run& run : runs_)
+            for (Index j = run.first; j < run.first + run.count; ++j)
+                visit(j);
     }
     VectorLanes next_offset(const Place& place) const { return here_ - broadcast(place); }
 
 private:
     const Places& places_;
+    std::span<const Run> runs_;
     VectorLanes here_;
 };
 
