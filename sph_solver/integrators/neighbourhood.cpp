@@ -55,10 +55,12 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
         if (moves[static_cast<std::size_t>(c)]) moving_.push_back(c);
 
     // What is near is near from either side: what stands beside something that moves is in its list.
+    const bool something_stands = moving_particles_.size() < static_cast<std::size_t>(particles.count());
     for (const Index c : moving_) {
-        list_.for_each_neighbour(c, [&](Index j) {
-            if (mobility[j] == 0.0) touched[static_cast<std::size_t>(list_.cluster_of(j))] = 1;
-        });
+        if (something_stands)
+            list_.for_each_neighbour(c, [&](Index j) {
+                if (mobility[j] == 0.0) touched[static_cast<std::size_t>(list_.cluster_of(j))] = 1;
+            });
         auto& wandered = has_wandered_[static_cast<std::size_t>(c)];
         if (!wandered) wandered_.push_back(c);
         wandered = 1;

@@ -138,7 +138,7 @@ void ThermalStep::set_stable_time_step(const Scene& scene)
         consider(m.conductivity_liquid, m.density, m.specific_heat);
     }
     stable_time_step_ = greatest_diffusivity > 0.0
-                            ? 0.15 * smoothing_length_ * smoothing_length_ / greatest_diffusivity *
+                            ? 0.075 * smoothing_length_ * smoothing_length_ / greatest_diffusivity *
                                   scene.definition.numerics.thermal_time_step_factor
                             : std::numeric_limits<double>::infinity();
 }
