@@ -20,7 +20,7 @@ TRACK = ("slm_track_150w", "resolution.coarse=40 um", "time.end=1 ms")
 # What is wrong with a case → what its diagnosis says: model, quantity with its unit, and a remedy.
 FAULTS = {
     "a number that is none": ((*TRACK, "laser.power=1e306 W"), ("not a number", " = nan", "of particle ", "reduce numerics.")),
-    "a temperature beyond any metal's": ((*TRACK, "laser.power=1 MW"), ("heat: ", "20000 K", "temperature [K]", "of particle ", "check laser power")),
+    "a temperature beyond any metal's": ((*TRACK, "laser.power=1 MW", 'physics=["laser", "heat", "melting"]'), ("heat: ", "20000 K", "temperature [K]", "of particle ", "check laser power")),
     "a speed above that of sound": ((*LAYER, "numerics.sound_speed=0.005 m/s"),
                                     ("momentum: ", "artificial speed of sound", "speed [m/s]", "of particle ", "raise numerics.reference_speed")),
     "a density far from the liquid's": ((*DROP, "material.oil.surface_tension=100 N/m", "material.oil.viscosity=5 Pa s", "material.water.viscosity=5 Pa s"),
