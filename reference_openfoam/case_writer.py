@@ -7,8 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from .blocks import block_counts
+from .case_folder import CaseFolder
 from .foam_files import header, scalar_list, write_dictionary, write_field
-from .grid import Grid, make_grid, write_mesh
+from .grid import Grid, make_grid
+from .mesh_files import write_mesh
 from .resolved_case import SIDES, ResolvedCase
 from .volume_fractions import top_of_bodies, volume_fractions
 
@@ -30,20 +33,33 @@ NUMERICS = {
 NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
 PATCH_TYPES = {"wall": "wall", "symmetry": "symmetryPlane", "open": "patch", "periodic": "cyclic"}
 TEMPERATURE = "[0 0 0 1 0 0 0]"
+BETWEEN_RANKS = {'"procBoundary.*"': {"type": "processor"}}          # in every field; without effect in a serial case
 
 
-def write_case(case: ResolvedCase, folder: Path, grid: Grid | None = None) -> Grid:
-    """Write the OpenFOAM case of a resolved case into `folder`; returns its grid (made here if none is given).
+def write_case(case: ResolvedCase, folder: Path, grid: Grid | None = None, ranks: int = 1) -> CaseFolder:
+    """Write the OpenFOAM case of a resolved case into `folder`, divided among at most `ranks` ranks (grid: made here if none is
+    given).
 
     Errors: Refused for a bed file that cannot be read.
     """
     grid = grid or make_grid(case, top_of_bodies(case))
+    written = CaseFolder(folder, grid, block_counts(case, grid, ranks))
     fraction = volume_fractions(case, grid)
-    write_mesh(grid, patch_types(case), folder)
-    _write_start_fields(case, grid, fraction, folder/"0")
-    _write_properties(case, folder)
-    _write_system(folder, "flow" in case.physics)
-    return grid
+    write_frame(case, written)
+    for part, block in written.parts():
+        _write_start_fields(case, block, written.part(fraction, block), part/"0")
+    return written
+
+
+def write_frame(case: ResolvedCase, written: CaseFolder) -> None:
+    """Write everything of a case but its fields: meshes, properties, control, and the description of its grid."""
+    for part, block in written.parts():
+        write_mesh(block, patch_types(case), part)
+    _write_properties(case, written.path)
+    _write_system(written.path, "flow" in case.physics)
+    if written.ranks > 1:
+        write_dictionary(written.path/"system"/"decomposeParDict", {"numberOfSubdomains": written.ranks, "method": "manual"})
+    written.save()
 
 
 def patch_types(case: ResolvedCase) -> dict[str, str]:
@@ -71,7 +87,7 @@ def _boundary(case: ResolvedCase, wall, opening: dict[str, Any]) -> dict[str, di
             conditions[side] = opening
         else:
             conditions[side] = {"type": patch_type}
-    return conditions
+    return conditions | BETWEEN_RANKS
 
 
 def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, folder: Path) -> None:
@@ -97,7 +113,8 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
         for side, patch_type in patch_types(case).items():
             values = scalar_list(start_temperature(case, grid.side_centres(side)))
             conditions[side] = {"type": "fixedValue", "value": values} if patch_type in ("wall", "patch") else {"type": patch_type}
-        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())), conditions)
+        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
+                    conditions | BETWEEN_RANKS)
 
 
 def _inflow(case: ResolvedCase, value: float) -> dict[str, Any]:

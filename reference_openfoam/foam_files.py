@@ -29,10 +29,9 @@ def entry(value: Any) -> str:
 
 
 def dictionary(entries: dict[str, Any], indent: int = 0) -> str:
-    """Nested dict as text; keys that are no plain words are put in quotes."""
+    """Nested dict as text; a key that is a pattern brings its own quotes."""
     text, space = "", " "*indent
     for key, value in entries.items():
-        key = key if re.fullmatch(r"[A-Za-z_]\w*", key) else f'"{key}"' if "|" in key else key
         if isinstance(value, dict):
             text += f"{space}{key}\n{space}{{\n{dictionary(value, indent + 4)}{space}}}\n"
         else:
