@@ -17,7 +17,7 @@ def internal_faces(grid: Grid) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     label = np.arange(grid.cell_count)
     corners = {0: ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)), 1: ((0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)),
                2: ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))}
-    faces, owners, neighbours = [], [], []
+    faces, owners, neighbours = [], [], []             # axis by axis; then in OpenFOAM's order
     for axis, (inside, offset) in enumerate(((i < nx - 1, 1), (j < ny - 1, nx), (k < nz - 1, nx*ny))):
         faces.append(np.column_stack([grid.point_label(i + a, j + b, k + c)[inside] for a, b, c in corners[axis]]))
         owners.append(label[inside])
@@ -25,6 +25,15 @@ def internal_faces(grid: Grid) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     owner, neighbour = np.concatenate(owners), np.concatenate(neighbours)
     order = np.lexsort((neighbour, owner))
     return np.concatenate(faces)[order], owner[order], neighbour[order]
+
+
+def internal_order(grid: Grid) -> np.ndarray:
+    """Where each internal face of OpenFOAM's order stands in a list axis by axis (x, y, z), each in the order of cells."""
+    nx, ny, nz = grid.shape
+    label = np.arange(grid.cell_count).reshape(nz, ny, nx)
+    owner = np.concatenate([label[:, :, :-1].ravel(), label[:, :-1, :].ravel(), label[:-1].ravel()])
+    neighbour = np.concatenate([label[:, :, 1:].ravel(), label[:, 1:, :].ravel(), label[1:].ravel()])
+    return np.lexsort((neighbour, owner))
 
 
 def _side_faces(grid: Grid, side: str, cells: np.ndarray) -> np.ndarray:

@@ -8,13 +8,14 @@ import sys
 from pathlib import Path
 from typing import TextIO
 
-from . import case_writer, run_record, supervision
+from . import run_record, supervision
 from .case_folder import CaseFolder
 from .convert import SnapshotWriter, snapshot_index
 from .errors import Refused
-from .grid import make_grid
+from .mesh_sequence import MeshSequence
 from .resolved_case import ResolvedCase
-from .volume_fractions import top_of_bodies
+
+MESH_MUST_FOLLOW = 3            # status of a solver that has left the fine part of its mesh
 
 
 def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False) -> int:
@@ -28,16 +29,17 @@ def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False
     folder = output/"checkpoints"
     if resume:
         _check_same_case(case, folder)
-        written = _newest_case(folder)
+        meshes = MeshSequence(case, folder, threads)
+        written = meshes.newest()
         start, _ = written.newest()
         _cut_history(folder/"history.csv", start)
     else:
-        grid = make_grid(case, top_of_bodies(case))      # refuses a broken bed before anything is written
+        meshes = MeshSequence(case, folder, threads if supervision.can_run_parallel() else 1)
+        meshes.check()                                   # refuses a broken bed before anything is written
         try:
             _clear(output)
             folder.mkdir(parents=True)
-            written = case_writer.write_case(case, folder/"mesh_0000", grid,
-                                             threads if supervision.can_run_parallel() else 1)
+            written = meshes.first()
             (folder/"resolved.json").write_text(json.dumps(case.data))
         except OSError as error:
             raise Refused(f"{output}: cannot be written: {error.strerror}") from None
@@ -47,7 +49,7 @@ def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False
     with open(output/"log.txt", "a" if resume else "w", encoding="utf-8") as log:
         if written.ranks != threads:
             log.write(f"{threads} threads were offered, the run takes {written.ranks}\n")
-        return _solve(case, written, output, snapshots, log)
+        return _solve(case, meshes, written, output, snapshots, log)
 
 
 def _clear(output: Path) -> None:
@@ -68,14 +70,6 @@ def _check_same_case(case: ResolvedCase, folder: Path) -> None:
         raise Refused(f"{folder}: belongs to other settings; run without --resume")
 
 
-def _newest_case(folder: Path) -> CaseFolder:
-    """The OpenFOAM case that a run has come to."""
-    found = sorted(path for path in folder.glob("mesh_*") if path.name[5:].isdigit())
-    if not found:
-        raise Refused(f"{folder}: there is no checkpoint to go on from; run without --resume")
-    return CaseFolder.load(found[-1])
-
-
 def _cut_history(path: Path, start: float) -> None:
     """Drop rows after the checkpoint and a row cut short."""
     if not path.is_file():
@@ -86,12 +80,19 @@ def _cut_history(path: Path, start: float) -> None:
     path.write_text("\n".join(lines[:1] + kept) + "\n")
 
 
-def _solve(case: ResolvedCase, written: CaseFolder, output: Path, snapshots: SnapshotWriter, log: TextIO) -> int:
-    """Run the solver to the end of the case and write down how it ended."""
+def _solve(case: ResolvedCase, meshes: MeshSequence, written: CaseFolder, output: Path, snapshots: SnapshotWriter,
+           log: TextIO) -> int:
+    """Run the solver, mesh after mesh, to the end of the case and write down how it ended."""
     folder = output/"checkpoints"
     with supervision.Supervisor(log) as supervisor:
-        status = supervisor.run(written.path, written.ranks, lambda: _convert(case, written, snapshots))
+        status: int | None = MESH_MUST_FOLLOW
+        while status == MESH_MUST_FOLLOW and not supervisor.interrupted:
+            _convert(case, written, snapshots)
+            written = meshes.following(written)
+            status = supervisor.run(written.path, written.ranks, lambda: _convert(case, written, snapshots))
         _convert(case, written, snapshots)
+        if supervisor.interrupted and status == MESH_MUST_FOLLOW:
+            status = 130
     if (folder/"history.csv").is_file():
         run_record.copy_beside(folder/"history.csv", output/"history.csv")
     if status == 130 or (supervisor.interrupted and status is None):

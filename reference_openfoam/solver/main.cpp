@@ -51,19 +51,22 @@ int run_scene(Time& clock, const fvMesh& mesh)
     autoPtr<EnergyEquation> energy;
     if (scene.physics.heat) energy.reset(new EnergyEquation(scene, fields));
 
+    if (energy.valid()) energy->restore_from_enthalpy();
     Ledgers ledgers(scene, fields, energy.valid() ? energy.operator->() : nullptr);
     TimeStep time_step(scene, fields);
     RunState state;
     const bool resumed = restore_checkpoint(clock, mesh, ledgers, time_step, state);
     Outcome outcome(scene, fields, clock.globalPath().path());
-    const auto checkpoint = [&]() {
+    const auto checkpoint = [&](bool mesh_must_follow) {
+        tmp<volScalarField> enthalpy; // registered while it is there, so written with the others
+        if (mesh_must_follow) enthalpy = energy->primary_enthalpy();
         RunState now = state;
         now.wall_seconds += outcome.wall_seconds();
         now.cpu_seconds += outcome.cpu_seconds();
         write_checkpoint(clock, mesh, ledgers, time_step, now);
     };
     EnergyRates rates;
-    if (!resumed) checkpoint();
+    if (!resumed) checkpoint(false);
     outcome.record(0, ledgers, rates, state);
 
     const scalar almost = 1e-9 * scene.end_time;
@@ -100,7 +103,7 @@ int run_scene(Time& clock, const fvMesh& mesh)
         outcome.record(step, ledgers, rates, state);
         const bool interrupted = stop_requested();
         const bool window_is_left = clock.value() < scene.end_time - almost && window.is_left(fields, clock.value());
-        if (interrupted || window_is_left || clock.value() >= target - almost) checkpoint();
+        if (interrupted || window_is_left || clock.value() >= target - almost) checkpoint(window_is_left);
         if (interrupted) return 130;
         if (window_is_left) return 3;
     }
