@@ -14,6 +14,7 @@ from .errors import Refused
 from .grid import Grid
 from .resolved_case import ResolvedCase
 
+CHUNK = 20000       # cut cells that are sampled at a time: 0.5 GB of sample points
 SAMPLES = 10        # sub-samples along each edge of a cut cell: volume of a sphere of 16 cells across to about 2e-5
 
 
@@ -62,35 +63,43 @@ def top_of_bodies(case: ResolvedCase) -> float:
 def volume_fractions(case: ResolvedCase, grid: Grid) -> np.ndarray:
     """Share of the primary material in every cell, (n,) 0..1."""
     lines = (grid.x, grid.y, grid.z)
-    bodies = []
+    bodies = [(body, body_spheres(body, case.is_planar)) for body in case.data["bodies"]]
+    near = {id(spheres): [_cells_near(sphere, lines, grid) for sphere in spheres] for _, spheres in bodies}
     cut = np.zeros(grid.cell_count, dtype=bool)
-    for body in case.data["bodies"]:
-        spheres = body_spheres(body, case.is_planar)
-        bodies.append((body, spheres))
-        for sphere in spheres:
-            cut[_cells_near(sphere, lines, grid)] = True
+    for cells in (cells for parts in near.values() for cells in parts):
+        cut[cells] = True
     fraction = np.zeros(grid.cell_count)
-    samples = _sample_points(grid, np.flatnonzero(cut))
-    inside = np.zeros(samples.shape[:2], dtype=bool)
+    for body, _ in bodies:
+        if body["shape"] == "box":
+            share = _box_share(body, grid)
+            fraction = fraction + share*(1 - fraction) if body["material"] == case.primary_name else fraction*(1 - share)
     row_of = np.full(grid.cell_count, -1)
-    row_of[cut] = np.arange(np.count_nonzero(cut))
+    for cells in np.array_split(np.flatnonzero(cut), max(1, np.count_nonzero(cut)//CHUNK)):
+        row_of[cells] = np.arange(len(cells))
+        fraction[cells] = _sampled(case, grid, bodies, near, cells, row_of)
+        row_of[cells] = -1
+    return fraction
+
+
+def _sampled(case: ResolvedCase, grid: Grid, bodies: list, near: dict, cells: np.ndarray, row_of: np.ndarray) -> np.ndarray:
+    """Share of the sample points of some cells (m,) that lie in the primary material; row_of: place of a cell among them, or -1."""
+    samples = _sample_points(grid, cells)
+    inside = np.zeros(samples.shape[:2], dtype=bool)
+    axes = (0, 2) if grid.planar else (0, 1, 2)
     for body, spheres in bodies:
         fills = body["material"] == case.primary_name
         if body["shape"] == "box":
-            share = _box_share(body, grid)
-            fraction = fraction + share*(1 - fraction) if fills else fraction*(1 - share)
-            axes = (0, 2) if grid.planar else (0, 1, 2)
             within = np.all([(samples[..., a] >= body["lower"][a]) & (samples[..., a] < body["upper"][a]) for a in axes], axis=0)
             inside = inside | within if fills else inside & ~within
-        for sphere in spheres:
-            rows = row_of[_cells_near(sphere, lines, grid)]
+        for sphere, touched in zip(spheres, near[id(spheres)]):
+            rows = row_of[touched]
+            rows = rows[rows >= 0]
             distance = samples[rows] - sphere[:3]
             if grid.planar:
                 distance[..., 1] = 0
             within = np.einsum("ijk,ijk->ij", distance, distance) <= sphere[3]**2
             inside[rows] = inside[rows] | within if fills else inside[rows] & ~within
-    fraction[cut] = inside.mean(axis=1)
-    return fraction
+    return inside.mean(axis=1)
 
 
 def _cells_near(sphere: np.ndarray, lines: tuple[np.ndarray, ...], grid: Grid) -> np.ndarray:
