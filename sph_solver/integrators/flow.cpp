@@ -6,6 +6,7 @@
 #include "integrators/two_phase_flow.hpp"
 #include "models/artificial_stress.hpp"
 #include "models/artificial_viscosity.hpp"
+#include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
 #include "models/surface_temperature.hpp"
 
@@ -45,6 +46,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
     if (temperature_ && (with_tension_ || with_recoil_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
+    if (with_tension_ && !scene.two_phase) {
+        unresolved_ = &particles_.add_scalar({"unresolved", "1"});
+        bonds_ = Cohesion::bonds_across_a_plane(scene.dimensions);
+    }
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
@@ -83,6 +88,33 @@ void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const C
                   ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
     for (const Index i : neighbourhood.moving_particles())
         temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
+}
+
+void Flow::add_cohesion(const Neighbourhood& neighbourhood)
+{
+    if (!unresolved_) return;
+    const NeighbourList& list = neighbourhood.list();
+    std::vector<unsigned char> touched(neighbourhood.all().size(), 0);
+    for (const Index c : neighbourhood.moving()) {
+        const Cluster& cluster = list.cluster(c);
+        bool any = false;
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
+            if (mobility_.weight[i] == 0.0) continue;
+            (*unresolved_)[i] =
+                Cohesion::share_unresolved(surface_->fields().companions[i], lattice_companions(scene_.dimensions));
+            any = any || (*unresolved_)[i] > 0.0;
+        }
+        if (any)
+            list.for_each_neighbour(c, [&](Index j) { touched[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
+    }
+    std::vector<Index> near;
+    for (const Index c : neighbourhood.moving())
+        if (touched[static_cast<std::size_t>(c)]) near.push_back(c);
+    if (near.empty()) return;
+    const bool flat = scene_.dimensions == 2;
+    for_each_pair(list, particles_, kernel_, near,
+                  Cohesion{mobility_, scene_.spacing, flat ? 1.0 : scene_.spacing, bonds_, tension_, particles_.kind,
+                           temperature_, *unresolved_, force_});
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)

@@ -48,6 +48,8 @@ protected:
     void add_remedies(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
+    /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
+    void add_cohesion(const Neighbourhood& neighbourhood);
     /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 
@@ -68,6 +70,8 @@ private:
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
+    ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
+    double bonds_ = 0.0;
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it
 };
 

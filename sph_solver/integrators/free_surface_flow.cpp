@@ -208,6 +208,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
     add_remedies(neighbourhood);
+    add_cohesion(neighbourhood);
     accelerate(neighbourhood);
 }
 

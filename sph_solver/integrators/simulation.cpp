@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "models/molten_neighbours.hpp"
-
 namespace cupel::inline CUPEL_ENGINE
 {
 
@@ -48,10 +46,6 @@ Simulation::Simulation(Scene scene)
     for (Index i = 0; i < particles.count(); ++i)
         mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
     if (!has_flow_) return;
-    if (melts_) {
-        molten_neighbours_ = &particles.add_scalar({"molten_neighbours", "1"});
-        standing_neighbours_ = &particles.add_scalar({"standing_neighbours", "1"});
-    }
     flow_ = make_flow(scene_, parameters_, mobility_);
     const bool walled = particles.has("wall_normal");
     bool open = false;
@@ -227,34 +221,17 @@ void Simulation::advance_heat(double until)
     if (melts_ && has_flow_) melt_and_solidify();
 }
 
-/// Whether metal is liquid enough to flow, and deep enough for its flow to be resolved (MoltenNeighbours).
-bool Simulation::flows(Index i) const
-{
-    if ((*liquid_fraction_)[i] < CarmanKozeny::coherent_below) return false;
-    return mobility_[i] != 0.0 || (*standing_neighbours_)[i] == 0.0 ||
-           (*molten_neighbours_)[i] >= MoltenNeighbours::film_share * lattice_companions(scene_.dimensions);
-}
-
 /// Metal that is liquid enough to flow moves (its mush damped); mush that holds together and solid stand where they
 /// are. Were coherent mush left to move, its density would follow the pressure around it while its place could not.
 void Simulation::melt_and_solidify()
 {
     Particles& particles = *scene_.particles;
-    for_each_pair(neighbourhood_.list(), particles, QuinticSpline(parameters_.smoothing_length, scene_.dimensions),
-                  neighbourhood_.all(),
-                  MoltenNeighbours{{mobility_},
-                                   *liquid_fraction_,
-                                   particles.kind,
-                                   CarmanKozeny::coherent_below,
-                                   parameters_.smoothing_length,
-                                   *molten_neighbours_,
-                                   *standing_neighbours_});
     const double rest_density = scene_.materials.front().density;
     bool changed = false;
     for (Index i = 0; i < particles.count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         if (particles.kind[k] == Kind::wall || (escaped_ && (*escaped_)[i] != 0.0)) continue;
-        const bool liquid = flows(i);
+        const bool liquid = (*liquid_fraction_)[i] >= CarmanKozeny::coherent_below;
         if (liquid == (mobility_[i] != 0.0)) continue;
         changed = true;
         mobility_[i] = liquid ? 1.0 : 0.0;

@@ -67,7 +67,6 @@ private:
     void advance_flow(double time_step);
     void advance_heat(double until);
     void melt_and_solidify();
-    bool flows(Index i) const;
     void kick(double time_step);
     void retire_escaped();
     void hold_before_walls();
@@ -84,8 +83,6 @@ private:
     std::unique_ptr<Flow> flow_;
     CarmanKozeny mushy_drag_;
     const ScalarField* liquid_fraction_ = nullptr;
-    ScalarField* molten_neighbours_ = nullptr; ///< only where the case melts and flows
-    ScalarField* standing_neighbours_ = nullptr;
     ScalarField* escaped_ = nullptr;     ///< only where a side of the domain is open to what flies
     Vector wall_lower_{}, wall_upper_{}; ///< liquid stays between these, m; infinite where there is no wall
     Vector lower_{}, upper_{};           ///< beyond these a particle has left, m

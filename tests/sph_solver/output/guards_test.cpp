@@ -131,7 +131,7 @@ TEST(Guard, WallParticlesOnlyNeedNumbers)
 
 TEST(Guard, SolidParticlesNeedATemperatureAsWell)
 {
-    // Metal that stands as a film has the kind of a solid, however hot it is.
+    // Metal has the kind of a solid until it flows, however hot it is.
     SoundScene scene;
     scene.particles.kind[faulty] = Kind::solid;
     scene.particles.position.set(faulty, {0.0, 0.0, -1e-4});
