@@ -10,7 +10,9 @@ namespace cupel
 namespace
 {
 const scalar full = 0.99, empty_share = 0.01; // where a column counts as inside or outside
-const int reach = 6;                          // cells on each side: MULES spreads the interface over three or four
+const scalar turn = 0.02;                     // how far α may go back on the way: noise
+const int reach = 9; // cells on each side: MULES spreads the interface over three or four, seen along a diagonal over
+                     // six, and the columns beside it stand two cells higher or lower
 
 /// First and second derivative at the middle of three points at −a, 0, b.
 void derivatives(scalar below, scalar here, scalar above, scalar a, scalar b, scalar& first, scalar& second)
@@ -51,14 +53,17 @@ bool HeightFunction::height(const std::vector<scalar>& fraction, Index start, in
         start[axis] = k;
         return fraction[grid_.flat(start)];
     };
+    // from the cell to where it is full, and to where it is empty; a turn on the way is another surface
     int inside = from, outside = from;
     for (int step = 0; share(inside) < full; ++step) {
         inside -= outward;
-        if (step == reach || inside < 0 || inside >= count) return false;
+        if (step == reach || inside < 0 || inside >= count || share(inside) < share(inside + outward) - turn)
+            return false;
     }
     for (int step = 0; share(outside) > empty_share; ++step) {
         outside += outward;
-        if (step == reach || outside < 0 || outside >= count) return false;
+        if (step == reach || outside < 0 || outside >= count || share(outside) > share(outside - outward) + turn)
+            return false;
     }
     position = outward * line.centres[inside] - 0.5 * line.widths[inside];
     for (int k = inside; k != outside + outward; k += outward)
