@@ -18,7 +18,7 @@ from .comparison import fill_solver_references
 from .display import make_display
 from .errors import CupelError
 from .jobs import Job
-from .layout import CANONICAL_CASES, LEVELS, SOLVERS, ResultPlace, places, results_root
+from .layout import LEVELS, SOLVERS, TIERS, ResultPlace, places, results_root
 from .runner import Runner
 
 app = typer.Typer(
@@ -27,9 +27,12 @@ app = typer.Typer(
 )
 
 Level = Enum("Level", {level: level for level in LEVELS}, type=str)
+Tier = Enum("Tier", {tier: tier for tier in TIERS}, type=str)
 Solver = Enum("Solver", {name: name for name in (*SOLVERS, "both", "external")}, type=str)
 
-CASES = typer.Argument(None, metavar="[CASE]...", help="Names of cases, or paths of case files; none: the canonical ones.")
+CASES = typer.Argument(None, metavar="[CASE]...",
+                       help="Cases (all variations), single variations, or paths of case files; none: the canonical ones.")
+TIER = typer.Option(None, help="All cases of a tier instead of named ones.")
 LEVEL = typer.Option(Level.coarse, help="How fine: what it means is in each case file.")
 SOLVER = typer.Option(Solver.both, help="Which solver.")
 RESULTS = typer.Option(None, "--results", metavar="DIR", help="Folder of results; default: results in the repository.")
@@ -41,6 +44,7 @@ VARIANT = typer.Option(None, metavar="NAME", help="Name of the variant; default:
 def run(
     names: Optional[List[str]] = CASES,
     level: Level = LEVEL,
+    tier: Optional[Tier] = TIER,
     solver: Solver = SOLVER,
     resume: bool = typer.Option(False, "--resume", help="Go on: keep finished runs, continue from checkpoints."),
     quiet: bool = QUIET,
@@ -62,7 +66,8 @@ def run(
         return write_report(root) if report else 0
     overrides = list(overrides or [])
     variant = variant_name(level.value, overrides, variant)
-    resolved = [case_files.resolve(case_files.find_case(name), level.value, overrides) for name in names or CANONICAL_CASES]
+    chosen = case_files.select_members(names, tier and tier.value, level.value)
+    resolved = [member.resolve(level.value, overrides) for member in chosen]
     solvers = SOLVERS if solver is Solver.both else (solver.value,)
     cores = len(os.sched_getaffinity(0))
     slots = min(jobs or cores, len(resolved) * len(solvers))
@@ -94,6 +99,7 @@ def test(context: typer.Context) -> int:
 def check(
     names: Optional[List[str]] = CASES,
     level: Level = LEVEL,
+    tier: Optional[Tier] = TIER,
     solver: Solver = SOLVER,
     variant: Optional[str] = VARIANT,
     results: Optional[Path] = RESULTS,
@@ -103,7 +109,7 @@ def check(
     from .check import check_results
 
     root = results_root(results)
-    wanted = [case_files.find_case(name).parent.name for name in names or CANONICAL_CASES]
+    wanted = [member.name for member in case_files.select_members(names, tier and tier.value, level.value)]
     solvers = SOLVERS if solver is Solver.both else (solver.value,)
     return check_results(root, wanted, solvers, variant or level.value, junit or root / "check.xml")
 
@@ -120,11 +126,11 @@ def report(
 
 
 @app.command("cases")
-def list_cases(results: Optional[Path] = RESULTS) -> int:
-    """List the cases: what each is, its tolerances, its cost."""
+def list_cases(tier: Optional[Tier] = TIER, results: Optional[Path] = RESULTS) -> int:
+    """List the cases: what each is, its variations, its tolerances, its cost."""
     from .listing import print_cases
 
-    print_cases(results)
+    print_cases(results, tier and tier.value)
     return 0
 
 

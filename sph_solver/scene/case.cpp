@@ -1,11 +1,13 @@
 #include "scene/case.hpp"
 
 #include "scene/physics.hpp"
+#include "scene/shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
 
 namespace cupel
 {
@@ -14,6 +16,12 @@ namespace
 {
 
 using nlohmann::json;
+
+bool present(const json& table, const char* key)
+{
+    const auto found = table.find(key);
+    return found != table.end() && !found->is_null();
+}
 
 std::optional<double> optional_number(const json& table, const char* key)
 {
@@ -69,6 +77,7 @@ Domain domain_from(const json& table)
         Boundary boundary;
         boundary.kind = boundary_kind(found->at("kind"));
         boundary.no_slip = found->value("slip", "no_slip") == "no_slip";
+        if (present(*found, "velocity")) boundary.velocity = found->at("velocity").get<Vector3>();
         boundary.temperature = optional_number(*found, "temperature");
         domain.boundaries[side] = boundary;
     }
@@ -81,21 +90,44 @@ Body body_from(const json& table)
     const std::string shape = table.at("shape");
     body.material = table.at("material");
     body.solid = table.at("state") == "solid";
+    body.temperature = optional_number(table, "temperature");
     if (shape == "sphere") {
         body.shape = BodyShape::sphere;
         body.center = table.at("center").get<Vector3>();
         body.radius = table.at("radius");
+        if (present(table, "perturbation"))
+            body.perturbation = {table.at("perturbation").at("mode"), table.at("perturbation").at("amplitude")};
         return body;
     }
     if (shape != "box" && shape != "powder_bed")
         throw CaseError("resolved case: bodies: unknown shape '" + shape + "'; resolve the case again");
     body.lower = table.at("lower").get<Vector3>();
     body.upper = table.at("upper").get<Vector3>();
+    if (present(table, "surface_wave"))
+        body.surface_wave = {table.at("surface_wave").at("amplitude"), table.at("surface_wave").at("wavelength")};
     if (shape == "powder_bed") {
         body.shape = BodyShape::powder_bed;
         body.file = table.at("file");
     }
     return body;
+}
+
+Initial initial_from(const json& table)
+{
+    Initial initial;
+    initial.temperature = table.at("temperature");
+    initial.temperature_gradient = table.at("temperature_gradient").get<Vector3>();
+    if (present(table, "velocity")) {
+        const json& velocity = table.at("velocity");
+        if (velocity.at("field") != "taylor_green")
+            throw CaseError("resolved case: initial.velocity: unknown field; resolve the case again");
+        initial.velocity = {velocity.at("speed"), velocity.at("wavelength")};
+    }
+    if (present(table, "hot_spot")) {
+        const json& spot = table.at("hot_spot");
+        initial.hot_spot = {spot.at("center").get<Vector3>(), spot.at("radius"), spot.at("rise")};
+    }
+    return initial;
 }
 
 Laser laser_from(const json& table)
@@ -129,6 +161,7 @@ Numerics numerics_from(const json& table)
     numerics.time_step_factor = table.at("time_step_factor");
     numerics.thermal_time_step_factor = table.at("thermal_time_step_factor");
     numerics.skin = table.at("skin");
+    numerics.position_jitter = table.value("position_jitter", 0.0);
     numerics.without_saving = table.at("without_saving");
     numerics.background_pressure_factor = table.at("background_pressure_factor");
     return numerics;
@@ -138,12 +171,6 @@ Surrounding surrounding_from(const json& table)
 {
     return {table.at("material"), table.at("resolved"), table.at("temperature"), table.at("pressure"),
             table.at("convection_coefficient")};
-}
-
-bool present(const json& table, const char* key)
-{
-    const auto found = table.find(key);
-    return found != table.end() && !found->is_null();
 }
 
 } // namespace
@@ -178,10 +205,27 @@ const Material& Case::material(const std::string& material_name) const
 
 double Case::initial_temperature(const Vector3& position) const
 {
+    for (auto body = bodies.rbegin(); body != bodies.rend(); ++body)
+        if (contains(*body, position, dimensions)) {
+            if (body->temperature) return *body->temperature;
+            break;
+        }
     double temperature = initial.temperature;
     for (std::size_t axis = 0; axis < 3; ++axis)
         temperature += initial.temperature_gradient[axis] * (position[axis] - domain.lower[axis]);
+    if (initial.hot_spot) {
+        const HotSpot& spot = *initial.hot_spot;
+        const double distance = std::hypot(position[0] - spot.center[0], position[1] - spot.center[1]) / spot.radius;
+        temperature += spot.rise * std::exp(-2.0 * distance * distance);
+    }
     return temperature;
+}
+
+Vector3 TaylorGreen::velocity(const Vector3& position) const
+{
+    const double k = 2.0 * std::numbers::pi / wavelength;
+    return {speed * std::sin(k * position[0]) * std::cos(k * position[2]), 0.0,
+            -speed * std::cos(k * position[0]) * std::sin(k * position[2])};
 }
 
 Case case_from_resolved(const json& resolved)
@@ -193,6 +237,8 @@ Case case_from_resolved(const json& resolved)
         Case result;
         result.resolved = resolved;
         result.name = resolved.at("name");
+        if (present(resolved, "variation")) result.variation = resolved.at("variation");
+        if (present(resolved, "tier")) result.tier = resolved.at("tier");
         result.title = resolved.at("title");
         result.hash = resolved.at("hash");
         result.level = resolved.at("level");
@@ -204,10 +250,7 @@ Case case_from_resolved(const json& resolved)
         if (present(resolved, "surrounding")) result.surrounding = surrounding_from(resolved.at("surrounding"));
         result.domain = domain_from(resolved.at("domain"));
         if (present(resolved, "gravity")) result.gravity = resolved.at("gravity").get<Vector3>();
-        if (present(resolved, "initial")) {
-            result.initial.temperature = resolved.at("initial").at("temperature");
-            result.initial.temperature_gradient = resolved.at("initial").at("temperature_gradient").get<Vector3>();
-        }
+        if (present(resolved, "initial")) result.initial = initial_from(resolved.at("initial"));
         for (const json& body : resolved.at("bodies"))
             result.bodies.push_back(body_from(body));
         if (present(resolved, "laser")) result.laser = laser_from(resolved.at("laser"));

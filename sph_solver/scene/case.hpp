@@ -70,6 +70,7 @@ struct Boundary
 {
     BoundaryKind kind = BoundaryKind::wall;
     bool no_slip = true;               ///< walls only
+    Vector3 velocity{};                ///< of a wall without slip, along itself [m/s]
     std::optional<double> temperature; ///< [K]; empty = adiabatic
 };
 
@@ -93,23 +94,60 @@ enum class BodyShape {
     powder_bed
 };
 
+/// A drop that is not quite round: R (1 + a cos(n theta)) in 2-D, R (1 + a P_n(cos theta)) in 3-D, theta from the
+/// vertical.
+struct Perturbation
+{
+    int mode = 2;         ///< n
+    double amplitude = 0; ///< a [1]
+};
+
+/// A wave on the upper side of a box: upper z + amplitude cos(2 pi x / wavelength).
+struct SurfaceWave
+{
+    double amplitude = 0;  ///< [m]
+    double wavelength = 1; ///< [m]
+};
+
 /// A part of the domain filled with a material at the start. Later bodies lie over earlier ones.
 struct Body
 {
     BodyShape shape = BodyShape::box;
     std::string material;
-    bool solid = false; ///< state at the start
-    Vector3 lower{};    ///< box, powder bed [m]
-    Vector3 upper{};    ///< box, powder bed [m]
-    Vector3 center{};   ///< sphere [m]
-    double radius = 0;  ///< sphere [m]
-    std::string file;   ///< powder bed: absolute path of its spheres (read_powder_bed)
+    bool solid = false;                         ///< state at the start
+    Vector3 lower{};                            ///< box, powder bed [m]
+    Vector3 upper{};                            ///< box, powder bed [m]
+    Vector3 center{};                           ///< sphere [m]
+    double radius = 0;                          ///< sphere [m]
+    std::string file;                           ///< powder bed: absolute path of its spheres (read_powder_bed)
+    std::optional<double> temperature{};        ///< at the start, in place of Initial's field [K]
+    std::optional<Perturbation> perturbation{}; ///< sphere
+    std::optional<SurfaceWave> surface_wave{};  ///< box
+};
+
+/// Taylor-Green vortices at the start: u = U sin(kx) cos(kz), w = -U cos(kx) sin(kz), k = 2 pi / wavelength.
+struct TaylorGreen
+{
+    double speed = 0;      ///< U [m/s]
+    double wavelength = 1; ///< [m]
+
+    Vector3 velocity(const Vector3& position) const;
+};
+
+/// What is added to the temperature: rise exp(-2 r^2 / radius^2), r the distance to the vertical through center.
+struct HotSpot
+{
+    Vector3 center{};  ///< [m]
+    double radius = 1; ///< [m]
+    double rise = 0;   ///< on the axis [K]
 };
 
 struct Initial
 {
     double temperature = 300;       ///< at domain.lower [K]
-    Vector3 temperature_gradient{}; ///< [K/m]; the field is temperature + gradient . (x - domain.lower)
+    Vector3 temperature_gradient{}; ///< [K/m]; the field is temperature + gradient . (x - domain.lower) + hot spot
+    std::optional<HotSpot> hot_spot{};
+    std::optional<TaylorGreen> velocity{}; ///< empty: everything is at rest
 };
 
 /// Gaussian beam straight down (-z) along a line on the plate; off before `start` and once `to` is reached.
@@ -153,14 +191,17 @@ struct Numerics
     std::optional<double> reference_speed; ///< greatest expected speed [m/s]
     double time_step_factor = 1;
     double thermal_time_step_factor = 1;
-    double skin = 0; ///< extra radius of the neighbour list / particle spacing
+    double skin = 0;                     ///< extra radius of the neighbour list / particle spacing
+    double position_jitter = 0;          ///< greatest random displacement at the start / particle spacing
     std::string without_saving = "none"; ///< what is computed in full all the same; "none" of the savings
     double background_pressure_factor = 0;
 };
 
 struct Case
 {
-    std::string name;
+    std::string name;      ///< CASE, or CASE_VARIATION
+    std::string variation; ///< of the case's [sweep]; empty where it has none
+    std::string tier;      ///< canonical, v0, v1 or v2; empty where it is in none
     std::string title;
     std::string hash;   ///< sha256 of the resolved content
     std::string level;  ///< coarse, medium, fine or paper
@@ -183,7 +224,8 @@ struct Case
     bool requires_physics(std::string_view physics_name) const;
     /// The material of a name; throws CaseError if there is none.
     const Material& material(const std::string& material_name) const;
-    /// The frozen or initial temperature at a place [K].
+    /// The frozen or initial temperature at a place [K]: that of the uppermost body there that has one of its own, else
+    /// the field of `initial`.
     double initial_temperature(const Vector3& position) const;
 };
 

@@ -140,6 +140,22 @@ json any_quantity(const Node& node, const std::string& path)
     return {{"value", quantity.value}, {"dimension", quantity.dimension.exponents}};
 }
 
+/// A value for all levels is one for the coarsest: it holds for every finer one that is not named.
+json by_level(const Node& node, const std::string& path)
+{
+    const std::vector<std::string>& levels = level_names();
+    if (!node.is(Node::Kind::table)) return {{levels.front(), any_quantity(node, path)}};
+    json values = json::object();
+    for (const auto& [level, value] : node.members) {
+        if (std::find(levels.begin(), levels.end(), level) == levels.end())
+            refuse(value.key_position, below(path, level), "there is no such level",
+                   "take one of: " + joined(levels) + suggestion(level, levels));
+        values[level] = any_quantity(value, below(path, level));
+    }
+    if (values.empty()) refuse(node.position, path, "names no level", "write for example { coarse = \"1 %\" }");
+    return values;
+}
+
 } // namespace
 
 std::string below(const std::string& path, const std::string& key)
@@ -188,6 +204,8 @@ json convert_value(const Parameter& parameter, const Node& node, const std::stri
         return time_window(node, path);
     case Type::any_quantity:
         return any_quantity(node, path);
+    case Type::by_level:
+        return by_level(node, path);
     }
     return nullptr;
 }
@@ -216,6 +234,7 @@ std::string value_hint(const Parameter& parameter)
     case Type::time_window:
         return "such as [\"1 ms\", \"end\"]";
     case Type::any_quantity:
+    case Type::by_level:
         return "a number with its unit";
     }
     return "";

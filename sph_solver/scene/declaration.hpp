@@ -25,6 +25,7 @@ enum class Type {
     file,         ///< path relative to the file in which it stands
     time_window,  ///< two times, of which the second may be "end"
     any_quantity, ///< quantity whose unit follows from another key of the same table
+    by_level,     ///< any_quantity, or a table of one a level
 };
 
 /// Bounds of a value in SI; each may be absent.
@@ -83,6 +84,15 @@ struct Table
     bool filled = false; ///< an absent table still gives its defaults
     std::vector<Parameter> parameters{};
     std::vector<Table> tables{};
+    std::string only_with{};                ///< the parameter beside it that decides whether this table applies
+    std::vector<std::string> only_values{}; ///< the values of only_with with which it applies
+
+    Table& with(std::string key_name, std::vector<std::string> values)
+    {
+        only_with = std::move(key_name);
+        only_values = std::move(values);
+        return *this;
+    }
 };
 
 Parameter quantity(std::string key, std::string unit, std::string help);
@@ -98,18 +108,33 @@ const Table& case_declaration();
 Table material_declaration();
 Table numerics_declaration();
 Table powder_declaration();
+Table domain_declaration();
+Table body_declaration();
+Table initial_declaration();
+Table measure_declaration();
 
 /// A quantity that a result can be judged by.
 struct MeasureDeclaration
 {
+    /// What a measure can work out of the resolved case where the case file names no value.
+    enum class OwnReference {
+        none,     ///< nothing: the case file gives the value
+        computed, ///< the exact or tabulated value
+        zero,     ///< the measure is an error already, which has no share of itself
+    };
+
     std::string name;
     std::string unit;
     std::string help;
+    OwnReference own_reference = OwnReference::none;
 };
 
 const std::vector<MeasureDeclaration>& measure_declarations();
 
 /// Levels of resolution, cheapest first.
 const std::vector<std::string>& level_names();
+
+/// Tiers of the suite.
+const std::vector<std::string>& tier_names();
 
 } // namespace cupel

@@ -92,6 +92,11 @@ Table numerics_declaration()
              .at_least(0)
              .at_most(2)
              .or_else(0.3),
+         quantity("position_jitter", "1",
+                  "greatest random displacement of a particle at the start, along each axis, over spacing")
+             .at_least(0)
+             .at_most(0.5)
+             .or_else(0.0),
          choice("without_saving", {"none", "moving_momentum", "thermal_clock", "local_lists", "kept_sums"},
                 "computes in full what this saving leaves out, so that it can be measured (./cupel bench --savings)")
              .or_else("none"),

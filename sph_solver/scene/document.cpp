@@ -3,6 +3,7 @@
 #include "scene/nearest.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -199,6 +200,62 @@ void apply_override(Node& document, const std::string& text, unsigned number)
     *target = std::move(value);
 }
 
+/// Digits only, and few enough to be counted.
+bool is_index(const std::string& text)
+{
+    return !text.empty() && text.size() < 9 &&
+           std::all_of(text.begin(), text.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
+}
+
+/// Takes the variations out of a document, in the order in which they stand.
+std::vector<std::pair<std::string, Node>> take_variations(Node& document)
+{
+    std::vector<std::pair<std::string, Node>> variations;
+    const auto found = document.members.find("sweep");
+    if (found == document.members.end()) return variations;
+    Node sweep = std::move(found->second);
+    document.members.erase(found);
+    if (!sweep.is(Node::Kind::table)) refuse(sweep.position, "sweep", "is " + kind_text(sweep), "write [sweep.NAME]");
+    for (auto& [name, variation] : sweep.members) {
+        const std::string key = "sweep." + name;
+        const auto allowed = [](unsigned char letter) { return std::isalnum(letter) != 0 || letter == '_'; };
+        if (name.empty() || !std::all_of(name.begin(), name.end(), allowed))
+            refuse(variation.key_position, key, "is no name", "use letters, digits and _ only");
+        if (!variation.is(Node::Kind::table))
+            refuse(variation.position, key, "is " + kind_text(variation), "write [" + key + "] and keys below it");
+        for (const char* whole : {"base", "sweep", "tier"})
+            if (const Node* wrong = variation.find(whole))
+                refuse(wrong->key_position, key + "." + whole, "cannot vary", "write it at the top of the file");
+        variations.emplace_back(name, std::move(variation));
+    }
+    std::stable_sort(variations.begin(), variations.end(), [](const auto& one, const auto& other) {
+        return one.second.key_position.line < other.second.key_position.line;
+    });
+    return variations;
+}
+
+void apply_variation(Node& document, const std::string& path, const std::string& chosen)
+{
+    auto variations = take_variations(document);
+    std::vector<std::string> known;
+    for (auto& [name, variation] : variations) {
+        if (name == chosen) {
+            merge(document, std::move(variation));
+            return;
+        }
+        known.push_back(name);
+    }
+    const Position place{std::make_shared<const std::string>(path), 1, 1};
+    if (known.empty()) {
+        if (!chosen.empty()) refuse(place, "--variation", "the case has no variations", "leave it out");
+    }
+    else if (chosen.empty())
+        refuse(place, "--variation", "is missing, the case has variations", "take one of: " + joined(known));
+    else
+        refuse(place, "--variation", "there is no variation '" + chosen + "'",
+               "take one of: " + joined(known) + suggestion(chosen, known));
+}
+
 } // namespace
 
 std::string position_text(const Position& position)
@@ -252,6 +309,19 @@ Node read_toml(const std::string& path)
 
 void merge(Node& under, Node over)
 {
+    const bool numbered = over.is(Node::Kind::table) && !over.members.empty() &&
+                          std::all_of(over.members.begin(), over.members.end(),
+                                      [](const auto& member) { return is_index(member.first); });
+    if (under.is(Node::Kind::array) && numbered) {
+        for (auto& [number, member] : over.members) {
+            const std::size_t index = std::stoul(number);
+            if (index >= under.items.size())
+                refuse(member.key_position, number, "is no place in a list of " + std::to_string(under.items.size()),
+                       "count from 0");
+            merge(under.items[index], std::move(member));
+        }
+        return;
+    }
     if (!under.is(Node::Kind::table) || !over.is(Node::Kind::table)) {
         under = std::move(over);
         return;
@@ -267,9 +337,19 @@ void merge(Node& under, Node over)
     }
 }
 
-Node read_document(const std::string& path, const std::vector<std::string>& overrides)
+std::vector<std::string> variation_names(const std::string& path)
 {
     Node document = read_with_base(path, {});
+    std::vector<std::string> names;
+    for (const auto& [name, variation] : take_variations(document))
+        names.push_back(name);
+    return names;
+}
+
+Node read_document(const std::string& path, const std::string& variation, const std::vector<std::string>& overrides)
+{
+    Node document = read_with_base(path, {});
+    apply_variation(document, path, variation);
     for (std::size_t number = 0; number < overrides.size(); ++number)
         apply_override(document, overrides[number], static_cast<unsigned>(number) + 1);
     const auto materials = document.members.find("material");

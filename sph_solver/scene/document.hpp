@@ -56,11 +56,17 @@ std::string kind_text(const Node& node);
 /// One TOML file. Throws CaseError with the position where it is no TOML, or when the file cannot be read.
 Node read_toml(const std::string& path);
 
-/// Lays `over` on `under`: tables merge key by key, everything else is replaced.
+/// Lays `over` on `under`: tables merge key by key, a table whose keys are numbers lies over the items of a list,
+/// everything else is replaced. Throws CaseError where a number is no place in the list.
 void merge(Node& under, Node over);
 
-/// A case file with what `base` names underneath it, overrides "key.path=value" on top of it, and every material's
-/// `use` taken from the materials folder. The keys `base` and `use` are consumed. Throws CaseError.
-Node read_document(const std::string& path, const std::vector<std::string>& overrides);
+/// Names of the variations of a case file, [sweep.NAME], in the order in which they stand; none for a single case.
+/// Throws CaseError.
+std::vector<std::string> variation_names(const std::string& path);
+
+/// A case file with what `base` names underneath it, the table [sweep.VARIATION] on top of it, overrides
+/// "key.path=value" on top of that, and every material's `use` taken from the materials folder. `variation` is empty
+/// for a file without [sweep]. The keys `base`, `sweep` and `use` are consumed. Throws CaseError.
+Node read_document(const std::string& path, const std::string& variation, const std::vector<std::string>& overrides);
 
 } // namespace cupel

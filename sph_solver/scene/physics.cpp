@@ -18,7 +18,7 @@ const std::vector<PhysicsDeclaration>& physics_declarations()
         {"laser", {"heat"}, "absorbed flux of a Gaussian beam on the surface that it sees"},
         {"radiation", {"heat"}, "radiative and convective loss from the surface"},
         {"evaporation", {"heat"}, "evaporative heat loss from the surface"},
-        {"recoil", {"flow", "heat"}, "recoil pressure of evaporation on the surface"}};
+        {"recoil", {"flow"}, "recoil pressure of evaporation on the surface"}};
     return declarations;
 }
 

@@ -78,10 +78,12 @@ public:
     {
         json values = json::object();
         for (const Parameter& parameter : table.parameters) {
-            if (applies(parameter, node, values, path)) read_parameter(parameter, node, path, values);
+            if (applies(parameter, node.find(parameter.key), values, path))
+                read_parameter(parameter, node, path, values);
         }
         for (const Table& inner : table.tables) {
             const Node* found = node.find(inner.key);
+            if (!applies(inner, found, values, path)) continue;
             if (found)
                 values[inner.key] = read_occurrences(inner, *found, below(path, inner.key));
             else if (inner.required)
@@ -104,15 +106,17 @@ private:
         return values;
     }
 
-    static bool applies(const Parameter& parameter, const Node& node, const json& values, const std::string& path)
+    /// Whether a parameter or table goes with what stands beside it; refuses one that is there and does not.
+    template <typename Declared>
+    static bool applies(const Declared& declared, const Node* found, const json& values, const std::string& path)
     {
-        if (parameter.only_with.empty() || !values.contains(parameter.only_with)) return true;
-        const std::string deciding = values.at(parameter.only_with);
-        const auto& allowed = parameter.only_values;
+        if (declared.only_with.empty() || !values.contains(declared.only_with)) return true;
+        const std::string deciding = values.at(declared.only_with);
+        const auto& allowed = declared.only_values;
         if (std::find(allowed.begin(), allowed.end(), deciding) != allowed.end()) return true;
-        if (const Node* found = node.find(parameter.key))
-            refuse(found->key_position, below(path, parameter.key),
-                   "has no meaning with " + parameter.only_with + " = \"" + deciding + "\"",
+        if (found)
+            refuse(found->key_position, below(path, declared.key),
+                   "has no meaning with " + declared.only_with + " = \"" + deciding + "\"",
                    "take it out, it goes with " + joined(allowed));
         return false;
     }
@@ -132,7 +136,8 @@ private:
                 values[parameter.key] = *parameter.fallback;
             return;
         }
-        if (node->is(Node::Kind::table))
+        const bool levels = parameter.type == Type::by_level && !node->find("value");
+        if (node->is(Node::Kind::table) && !levels)
             values[parameter.key] = annotated(parameter, *node, full_key);
         else
             values[parameter.key] = convert_value(parameter, *node, full_key);

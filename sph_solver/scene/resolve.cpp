@@ -27,6 +27,11 @@ std::string case_name(const std::string& path)
     return file.filename() == "case.toml" ? file.parent_path().filename().string() : file.stem().string();
 }
 
+std::string member_name(const std::string& path, const std::string& variation)
+{
+    return variation.empty() ? case_name(path) : case_name(path) + "_" + variation;
+}
+
 /// The declared order, so that the order in which a file names them does not matter.
 json ordered_physics(const json& values)
 {
@@ -88,9 +93,19 @@ json resolved_surrounding(const json& values)
 json resolved_domain(const json& values)
 {
     json domain = values.at("domain");
-    for (auto& [side, boundary] : domain.at("boundaries").items())
+    for (auto& [side, boundary] : domain.at("boundaries").items()) {
         boundary["temperature"] = member_or_null(boundary, "temperature");
+        if (!boundary.contains("velocity")) boundary["velocity"] = json::array({0.0, 0.0, 0.0});
+    }
     return domain;
+}
+
+json resolved_initial(const json& values)
+{
+    json initial = values.at("initial");
+    for (const char* key : {"velocity", "hot_spot"})
+        initial[key] = member_or_null(initial, key);
+    return initial;
 }
 
 json resolved_bodies(const json& values, const Node& document, bool require_files, const std::string& case_path)
@@ -98,6 +113,8 @@ json resolved_bodies(const json& values, const Node& document, bool require_file
     json bodies = values.at("body");
     for (std::size_t index = 0; index < bodies.size(); ++index) {
         json& body = bodies[index];
+        for (const char* key : {"temperature", "perturbation", "surface_wave"})
+            body[key] = member_or_null(body, key);
         if (!body.contains("file")) continue;
         const std::string file = body.at("file");
         const bool there = fs::is_regular_file(file);
@@ -143,7 +160,8 @@ json resolved_window(const json& between, double end, const Node& document, cons
     return {std::min(start, end), std::min(stop, end)};
 }
 
-json resolved_reference(const json& measure, const std::string& unit, const Node& document, const std::string& key)
+json resolved_reference(const json& measure, const MeasureDeclaration& declared, const Node& document,
+                        const std::string& key)
 {
     if (!measure.contains("reference")) return nullptr;
     json reference = measure.at("reference");
@@ -154,57 +172,84 @@ json resolved_reference(const json& measure, const std::string& unit, const Node
                    "say whether it is exact, tabulated, experiment or paper");
         reference["kind"] = "solver";
     }
-    const bool by_solver = reference.at("kind") == "solver";
-    if (by_solver != reference.contains("solver") || by_solver == reference.contains("value"))
+    const std::string kind = reference.at("kind");
+    const bool own =
+        (kind == "exact" || kind == "tabulated") && declared.own_reference != MeasureDeclaration::OwnReference::none;
+    const bool has_solver = reference.contains("solver"), has_value = reference.contains("value");
+    if (has_solver != (kind == "solver") || has_solver + has_value > 1)
         refuse(place.position, key, "a reference is either a value with its kind or a solver",
                "write { kind = \"exact\", value = ..., source = ... } or { solver = \"openfoam\" }");
+    if (!has_solver && !has_value && !own)
+        refuse(place.position, key + ".value", "is missing, '" + declared.name + "' cannot work one out of the case",
+               "give the value in " + declared.unit);
     reference["solver"] = member_or_null(reference, "solver");
-    reference["value"] =
-        by_solver ? json(nullptr)
-                  : json(value_in_unit(reference.at("value"), unit, node_at(document, key + ".value"), key + ".value"));
+    reference["value"] = has_value ? json(value_in_unit(reference.at("value"), declared.unit,
+                                                        node_at(document, key + ".value"), key + ".value"))
+                                   : json(nullptr);
     return reference;
 }
 
-json resolved_measure(const json& measure, double end, const Node& document, const std::string& key)
+/// Metric and tolerance of a measure at a level; those of the other levels are checked as well.
+void resolve_tolerance(json& resolved, const json& tolerances, const MeasureDeclaration& declared,
+                       const std::string& level, const Node& document, const std::string& key)
+{
+    const std::string tolerance_key = key + ".tolerance";
+    const json& reference = resolved.at("reference");
+    if (reference.is_null())
+        refuse(node_at(document, tolerance_key).position, tolerance_key, "there is no reference to judge by",
+               "add a reference or take it out");
+    const bool of_zero =
+        reference.at("value") == 0.0 ||
+        (reference.at("value").is_null() && declared.own_reference == MeasureDeclaration::OwnReference::zero);
+    bool reached = false;
+    for (const std::string& each : level_names()) {
+        if (tolerances.contains(each)) {
+            const Node& place = node_at(document, tolerance_key + "." + each);
+            const json& tolerance = tolerances.at(each);
+            const bool plain = tolerance.at("dimension") == json(std::array<int, 6>{});
+            if (resolved.at("metric").is_null()) {
+                const bool own_zero = of_zero && reference.at("value").is_null();
+                if (plain && declared.unit == "1" && !own_zero)
+                    refuse(place.position, key + ".metric", "is missing, and the tolerance does not tell it",
+                           "add metric = \"absolute\" or \"relative\"");
+                resolved["metric"] = plain && !own_zero ? "relative" : "absolute";
+            }
+            const std::string unit = resolved.at("metric") == "relative" ? "1" : declared.unit;
+            const double value = value_in_unit(tolerance, unit, place, tolerance_key);
+            if (!(value > 0))
+                refuse(place.position, tolerance_key, "is not above zero", "give the greatest error that passes");
+            if (resolved.at("metric") == "relative" && of_zero)
+                refuse(place.position, tolerance_key, "a share of a reference that is zero says nothing",
+                       "add metric = \"absolute\"");
+            if (!reached) resolved["tolerance"] = value;
+        }
+        reached = reached || each == level;
+    }
+}
+
+json resolved_measure(const json& measure, const std::string& level, double end, const Node& document,
+                      const std::string& key)
 {
     const MeasureDeclaration& declared = measure_of(measure.at("name"));
     json resolved{{"name", declared.name},
                   {"unit", declared.unit},
                   {"between", resolved_window(measure.at("between"), end, document, key + ".between")},
-                  {"reference", resolved_reference(measure, declared.unit, document, key + ".reference")},
+                  {"reference", resolved_reference(measure, declared, document, key + ".reference")},
                   {"tolerance", nullptr},
                   {"metric", member_or_null(measure, "metric")}};
-    if (!measure.contains("tolerance")) return resolved;
-    const std::string tolerance_key = key + ".tolerance";
-    const Node& place = node_at(document, tolerance_key);
-    if (resolved.at("reference").is_null())
-        refuse(place.position, tolerance_key, "there is no reference to judge by", "add a reference or take it out");
-    const json& tolerance = measure.at("tolerance");
-    const bool plain = tolerance.at("dimension") == json(std::array<int, 6>{});
-    if (resolved.at("metric").is_null()) {
-        if (plain && declared.unit == "1")
-            refuse(place.position, key + ".metric", "is missing, and the tolerance does not tell it",
-                   "add metric = \"absolute\" or \"relative\"");
-        resolved["metric"] = plain ? "relative" : "absolute";
-    }
-    const std::string unit = resolved.at("metric") == "relative" ? "1" : declared.unit;
-    const double value = value_in_unit(tolerance, unit, place, tolerance_key);
-    if (!(value > 0)) refuse(place.position, tolerance_key, "is not above zero", "give the greatest error that passes");
-    if (resolved.at("metric") == "relative" && resolved.at("reference").at("value") == 0.0)
-        refuse(place.position, tolerance_key, "a share of a reference that is zero says nothing",
-               "add metric = \"absolute\"");
-    resolved["tolerance"] = value;
+    if (measure.contains("tolerance"))
+        resolve_tolerance(resolved, measure.at("tolerance"), declared, level, document, key);
     return resolved;
 }
 
-json resolved_measures(const json& values, const Node& document)
+json resolved_measures(const json& values, const std::string& level, const Node& document)
 {
     json measures = json::array();
     if (!values.contains("measure")) return measures;
     const double end = values.at("time").at("end");
     for (std::size_t index = 0; index < values.at("measure").size(); ++index)
         measures.push_back(
-            resolved_measure(values.at("measure")[index], end, document, "measure." + std::to_string(index)));
+            resolved_measure(values.at("measure")[index], level, end, document, "measure." + std::to_string(index)));
     return measures;
 }
 
@@ -229,7 +274,7 @@ std::string content_hash(json resolved)
 
 json resolve_case(const std::string& path, const ResolveOptions& options)
 {
-    const Node document = read_document(path, options.overrides);
+    const Node document = read_document(path, options.variation, options.overrides);
     const Reading reading = read_declared(case_declaration(), document);
     const json& values = reading.values;
     check_level(path, values, document, options.level);
@@ -238,7 +283,9 @@ json resolve_case(const std::string& path, const ResolveOptions& options)
 
     const json no_gravity = json::array({0.0, 0.0, 0.0});
     json resolved{{"schema", resolved_schema_version},
-                  {"name", case_name(path)},
+                  {"name", member_name(path, options.variation)},
+                  {"variation", options.variation.empty() ? json(nullptr) : json(options.variation)},
+                  {"tier", member_or_null(values, "tier")},
                   {"title", values.at("title")},
                   {"paper", values.at("paper")},
                   {"case_file", path},
@@ -250,11 +297,11 @@ json resolve_case(const std::string& path, const ResolveOptions& options)
                   {"surrounding", resolved_surrounding(values)},
                   {"domain", resolved_domain(values)},
                   {"gravity", names_physics(values, "gravity") ? values.at("gravity") : no_gravity},
-                  {"initial", values.at("initial")},
+                  {"initial", resolved_initial(values)},
                   {"bodies", resolved_bodies(values, document, options.require_files, path)},
                   {"laser", resolved_laser(values)},
                   {"time", values.at("time")},
-                  {"measures", resolved_measures(values, document)},
+                  {"measures", resolved_measures(values, options.level, document)},
                   {"numerics", resolved_numerics(values)},
                   {"powder", member_or_null(values, "powder")},
                   {"assumed", reading.assumed},
@@ -263,9 +310,29 @@ json resolve_case(const std::string& path, const ResolveOptions& options)
     return resolved;
 }
 
-Case read_case(const std::string& path, const std::string& level, const std::vector<std::string>& overrides)
+Case read_case(const std::string& path, const std::string& level, const std::vector<std::string>& overrides,
+               const std::string& variation)
 {
-    return case_from_resolved(resolve_case(path, {level, overrides, true}));
+    return case_from_resolved(resolve_case(path, {level, overrides, true, variation}));
+}
+
+json summarize_case(const std::string& path)
+{
+    std::vector<std::string> variations = variation_names(path);
+    if (variations.empty()) variations.emplace_back();
+    json tier, members = json::array();
+    for (const std::string& variation : variations) {
+        const json values = read_declared(case_declaration(), read_document(path, variation, {})).values;
+        json levels = json::array();
+        for (const std::string& level : level_names())
+            if (values.at("resolution").contains(level)) levels.push_back(level);
+        tier = member_or_null(values, "tier");
+        members.push_back({{"name", member_name(path, variation)},
+                           {"variation", variation.empty() ? json(nullptr) : json(variation)},
+                           {"title", values.at("title")},
+                           {"levels", levels}});
+    }
+    return {{"tier", tier}, {"members", members}};
 }
 
 } // namespace cupel

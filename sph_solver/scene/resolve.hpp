@@ -15,6 +15,7 @@ struct ResolveOptions
     std::string level = "coarse";
     std::vector<std::string> overrides{}; ///< "key.path=value"
     bool require_files = true;            ///< false: a bed that is still to be made may be missing
+    std::string variation{};              ///< of the file's [sweep]; empty where it has none
 };
 
 /// Reads, checks and resolves a case file. The same file, materials, bed, level and overrides give the same text.
@@ -23,6 +24,11 @@ nlohmann::json resolve_case(const std::string& path, const ResolveOptions& optio
 
 /// The same as typed values.
 Case read_case(const std::string& path, const std::string& level = "coarse",
-               const std::vector<std::string>& overrides = {});
+               const std::vector<std::string>& overrides = {}, const std::string& variation = "");
+
+/// What a case file holds, whatever the level: {"tier", "members": [{"name", "variation", "title", "levels"}]}. A file
+/// with a [sweep] has a member a variation, named CASE_VARIATION; another one has itself, with variation null.
+/// Throws CaseError where the file cannot be read.
+nlohmann::json summarize_case(const std::string& path);
 
 } // namespace cupel

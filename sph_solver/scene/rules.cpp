@@ -46,9 +46,13 @@ void check_physics(const json& values, const Node& document)
                   "add [laser] or take 'laser' out of physics");
     const json& gradient = values.at("initial").at("temperature_gradient");
     const bool uniform = std::all_of(gradient.begin(), gradient.end(), [](const json& part) { return part == 0.0; });
-    if (names_physics(values, "marangoni") && !names_physics(values, "heat") && uniform)
+    if (names_physics(values, "marangoni") && !names_physics(values, "heat") && uniform &&
+        !values.at("initial").contains("hot_spot"))
         refuse_at(document, "initial.temperature_gradient", "is zero, so that 'marangoni' without 'heat' does nothing",
-                  "give a gradient or add 'heat' to the physics");
+                  "give a gradient or a hot spot, or add 'heat' to the physics");
+    if (values.at("initial").contains("velocity") && !names_physics(values, "flow"))
+        refuse_at(document, "initial.velocity", "is there, but 'flow' is not among the physics",
+                  "add 'flow' or take it out");
 }
 
 void check_material_names(const json& values, const Node& document)
@@ -144,27 +148,82 @@ void check_box(const json& lower, const json& upper, int dimensions, const Node&
     }
 }
 
+/// A wall moves along itself only, and takes the liquid with it only where that does not slip.
+void check_wall_velocity(const json& values, const Node& document, const std::string& side, std::size_t axis)
+{
+    const json& boundary = values.at("domain").at("boundaries").at(side);
+    if (!boundary.contains("velocity")) return;
+    const json& velocity = boundary.at("velocity");
+    if (std::all_of(velocity.begin(), velocity.end(), [](const json& part) { return part == 0.0; })) return;
+    const std::string path = "domain.boundaries." + side + ".velocity";
+    if (!names_physics(values, "flow"))
+        refuse_at(document, path, "is not zero, but 'flow' is not among the physics", "add 'flow' or take it out");
+    if (velocity[axis] != 0.0)
+        refuse_at(document, path, "moves the wall out of its plane", std::string("write \"0 m/s\" for ") + "xyz"[axis]);
+    if (values.at("dimensions") == 2 && velocity[1] != 0.0)
+        refuse_at(document, path, "leads out of the plane y = 0", "write \"0 m/s\" for y");
+    if (boundary.at("slip") == "free_slip")
+        refuse_at(document, path, "has no meaning with slip = \"free_slip\"", "take it out or the slip");
+}
+
+/// Refuses a wave that does not fit into a periodic domain a whole number of times.
+void check_periods(const json& values, const Node& document, double wavelength, std::vector<std::size_t> axes,
+                   const std::string& path)
+{
+    for (const std::size_t axis : axes) {
+        const std::string side = std::string(1, "xyz"[axis]) + "_min";
+        const json& domain = values.at("domain");
+        if (domain.at("boundaries").at(side).at("kind") != "periodic") continue;
+        const double count =
+            (domain.at("upper")[axis].get<double>() - domain.at("lower")[axis].get<double>()) / wavelength;
+        if (std::abs(count - std::round(count)) > 1e-6 || count < 0.5)
+            refuse_at(document, path,
+                      "does not fit a whole number of times into the domain, which is periodic in " +
+                          std::string(1, "xyz"[axis]),
+                      "make the domain as long as one or more waves");
+    }
+}
+
 void check_domain(const json& values, const Node& document)
 {
     const json& domain = values.at("domain");
     const int dimensions = values.at("dimensions");
     check_box(domain.at("lower"), domain.at("upper"), dimensions, document, "domain.upper");
     const json& boundaries = domain.at("boundaries");
-    for (const char* axis : {"x", "y", "z"}) {
-        const std::string sides[] = {std::string(axis) + "_min", std::string(axis) + "_max"};
-        const bool wanted = dimensions == 3 || axis != std::string("y");
+    for (std::size_t number = 0; number < 3; ++number) {
+        const std::string axis(1, "xyz"[number]);
+        const std::string sides[] = {axis + "_min", axis + "_max"};
+        const bool wanted = dimensions == 3 || axis != "y";
         int periodic = 0;
         for (const std::string& side : sides) {
             const std::string path = "domain.boundaries." + side;
             if (boundaries.contains(side) != wanted)
                 refuse_at(document, path, wanted ? "is missing" : "has no meaning in 2 dimensions",
                           wanted ? "add for example " + side + " = { kind = \"wall\" }" : "take it out");
+            if (wanted) check_wall_velocity(values, document, side, number);
             periodic += wanted && boundaries.at(side).at("kind") == "periodic" ? 1 : 0;
         }
         if (periodic == 1)
             refuse_at(document, "domain.boundaries." + sides[boundaries.at(sides[0]).at("kind") == "periodic" ? 1 : 0],
                       "is not periodic, but the opposite side is", "make both sides periodic or neither");
     }
+    if (values.at("initial").contains("velocity"))
+        check_periods(values, document, values.at("initial").at("velocity").at("wavelength"), {0, 2},
+                      "initial.velocity.wavelength");
+}
+
+/// What is special about the start of a body.
+void check_start_of_body(const json& values, const Node& document, const json& body, const std::string& path)
+{
+    if (body.contains("temperature") && !names_physics(values, "heat"))
+        refuse_at(document, path + ".temperature", "has no meaning without 'heat' in the physics",
+                  "add 'heat' or take it out");
+    if (!body.contains("surface_wave")) return;
+    const json& wave = body.at("surface_wave");
+    const double amplitude = std::abs(wave.at("amplitude").get<double>());
+    if (amplitude >= body.at("upper")[2].get<double>() - body.at("lower")[2].get<double>())
+        refuse_at(document, path + ".surface_wave.amplitude", "reaches below the box", "make it smaller");
+    check_periods(values, document, wave.at("wavelength"), {0}, path + ".surface_wave.wavelength");
 }
 
 void check_bodies(const json& values, const Node& document)
@@ -177,6 +236,7 @@ void check_bodies(const json& values, const Node& document)
         const json& body = values.at("body")[index];
         const std::string path = "body." + std::to_string(index);
         const std::string shape = body.at("shape");
+        check_start_of_body(values, document, body, path);
         if (shape == "powder_bed" && dimensions == 2)
             refuse_at(document, path + ".shape", "a powder bed has no meaning in 2 dimensions", "set dimensions = 3");
         if (shape == "sphere" && dimensions == 2 && body.at("center")[1] != 0.0)
@@ -203,6 +263,12 @@ void check_temperatures(const json& values, const Node& document)
         const double extent =
             values.at("domain").at("upper")[axis].get<double>() - values.at("domain").at("lower")[axis].get<double>();
         coldest += std::min(0.0, initial.at("temperature_gradient")[axis].get<double>() * extent);
+    }
+    if (initial.contains("hot_spot")) {
+        const double rise = initial.at("hot_spot").at("rise");
+        if (coldest > 0 && coldest + rise <= 0)
+            refuse_at(document, "initial.hot_spot.rise",
+                      "makes its middle as cold as " + json(coldest + rise).dump() + " K", "make it greater");
     }
     if (coldest <= 0)
         refuse_at(document, "initial.temperature_gradient",

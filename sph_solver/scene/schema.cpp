@@ -64,6 +64,13 @@ json value_schema(const Parameter& parameter)
         return {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 2}, {"maxItems", 2}};
     case Type::any_quantity:
         return {{"type", {"string", "number"}}};
+    case Type::by_level: {
+        const json one{{"type", {"string", "number"}}};
+        json levels{{"type", "object"}, {"properties", json::object()}, {"additionalProperties", false}};
+        for (const std::string& level : level_names())
+            levels["properties"][level] = one;
+        return {{"anyOf", {one, levels}}};
+    }
     }
     return json::object();
 }
@@ -159,6 +166,8 @@ std::string kind_of(const Parameter& parameter)
         return "two times, or time and \"end\"";
     case Type::any_quantity:
         return "number with the measure's unit";
+    case Type::by_level:
+        return "number with the measure's unit, or a table of one a level";
     }
     return "";
 }
@@ -172,7 +181,9 @@ std::string heading(const Table& table, const std::string& path)
 
 void write_table(const Table& table, const std::string& path, std::string& text)
 {
-    text += fmt::format("\n## {}\n\n{}.\n", heading(table, path), table.help);
+    const std::string goes_with =
+        table.only_with.empty() ? "" : fmt::format(" (with {} {})", table.only_with, joined(table.only_values));
+    text += fmt::format("\n## {}\n\n{}{}.\n", heading(table, path), table.help, goes_with);
     if (!table.parameters.empty()) text += "\n| Key | Value | Bounds | Default | Meaning |\n|---|---|---|---|---|\n";
     for (const Parameter& parameter : table.parameters) {
         const std::string condition = parameter.only_with.empty() ? ""
@@ -185,6 +196,19 @@ void write_table(const Table& table, const std::string& path, std::string& text)
         write_table(inner, path.empty() ? inner.key : path + "." + inner.key, text);
 }
 
+std::string own_reference_text(MeasureDeclaration::OwnReference own)
+{
+    switch (own) {
+    case MeasureDeclaration::OwnReference::none:
+        return "none";
+    case MeasureDeclaration::OwnReference::computed:
+        return "computed";
+    case MeasureDeclaration::OwnReference::zero:
+        return "0";
+    }
+    return "";
+}
+
 } // namespace
 
 json case_schema()
@@ -194,6 +218,10 @@ json case_schema()
     schema["title"] = "Cupel case file";
     schema["properties"]["base"] = {{"type", "string"},
                                     {"description", "file that lies underneath, relative to this one"}};
+    schema["properties"]["sweep"] = {{"type", "object"},
+                                     {"description", "variations of the case: [sweep.NAME] lies over the file"},
+                                     {"propertyNames", {{"pattern", "^[A-Za-z0-9_]+$"}}},
+                                     {"additionalProperties", {{"type", "object"}}}};
     return schema;
 }
 
@@ -206,9 +234,10 @@ std::string parameter_reference()
     text += "\n## Physics\n\n| Name | Needs | Meaning |\n|---|---|---|\n";
     for (const PhysicsDeclaration& physics : physics_declarations())
         text += fmt::format("| `{}` | {} | {} |\n", physics.name, joined(physics.needs), physics.help);
-    text += "\n## Measures\n\n| Name | Unit | Meaning |\n|---|---|---|\n";
+    text += "\n## Measures\n\n| Name | Unit | Reference of its own | Meaning |\n|---|---|---|---|\n";
     for (const MeasureDeclaration& measure : measure_declarations())
-        text += fmt::format("| `{}` | {} | {} |\n", measure.name, measure.unit, measure.help);
+        text += fmt::format("| `{}` | {} | {} | {} |\n", measure.name, measure.unit,
+                            own_reference_text(measure.own_reference), measure.help);
     return text;
 }
 

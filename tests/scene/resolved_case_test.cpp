@@ -188,14 +188,69 @@ TEST(Measures, ThatCannotBeJudgedAreRefused)
     EXPECT_THAT(
         with("name = \"base_radius\"\nreference = { kind = \"exact\", value = \"1 m\" }\ntolerance = \"1 s\"\n"),
         HasSubstr("measure.0.tolerance: has the unit s instead of m"));
-    EXPECT_THAT(with("name = \"base_radius\"\nreference = { kind = \"exact\" }\n"),
-                HasSubstr("either a value with its kind or a solver"));
+    EXPECT_THAT(with("name = \"bead_height\"\nreference = { kind = \"exact\" }\n"),
+                HasSubstr("measure.0.reference.value: is missing, 'bead_height' cannot work one out of the case"));
+    EXPECT_THAT(with("name = \"base_radius\"\nreference = { kind = \"exact\", solver = \"sph\" }\n"),
+                HasSubstr("has no meaning with kind = \"exact\""));
+    EXPECT_THAT(with("name = \"base_radius\"\nreference = { kind = \"paper\" }\n"), HasSubstr("value: is missing"));
     EXPECT_THAT(with("name = \"profile_error\"\nreference = { kind = \"exact\", value = 0 }\ntolerance = 0.1\n"),
                 HasSubstr("measure.0.metric: is missing"));
     EXPECT_THAT(with("name = \"profile_error\"\nreference = { kind = \"exact\", value = 0 }\ntolerance = 0.1\nmetric = "
                      "\"relative\"\n"),
                 HasSubstr("a share of a reference that is zero"));
     EXPECT_EQ(with("name = \"base_radius\"\n"), "");
+}
+
+nlohmann::json measure_with(const std::string& lines, const std::string& level = "coarse")
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.write("case.toml", replaced(drop_case, "resolution.coarse = \"10 um\"",
+                                                                "resolution = { coarse = \"10 um\", medium = \"9 um\", "
+                                                                "fine = \"8 um\", paper = \"7 um\" }") +
+                                                           "[[measure]]\nbetween = [\"0 s\", \"end\"]\n" + lines);
+    return resolve_case(file, {level, {}, true}).at("measures")[0];
+}
+
+TEST(Measures, WorkOutTheirOwnExactReference)
+{
+    const nlohmann::json radius =
+        measure_with("name = \"base_radius\"\nreference = { kind = \"exact\" }\ntolerance = \"1 %\"\n");
+    EXPECT_EQ(radius.at("reference").at("kind"), "exact");
+    EXPECT_TRUE(radius.at("reference").at("value").is_null());
+    EXPECT_EQ(radius.at("metric"), "relative");
+}
+
+TEST(Measures, ThatAreErrorsThemselvesAreJudgedAsTheyAre)
+{
+    const nlohmann::json error =
+        measure_with("name = \"profile_error\"\nreference = { kind = \"exact\" }\ntolerance = \"1 %\"\n");
+    EXPECT_EQ(error.at("metric"), "absolute");
+    EXPECT_EQ(error.at("tolerance"), 0.01);
+}
+
+TEST(Measures, LevelThatIsNotNamedHasTheToleranceOfTheNextCoarserOne)
+{
+    const std::string lines = "name = \"base_radius\"\nreference = { kind = \"exact\" }\n"
+                              "tolerance = { medium = \"2 %\", paper = \"1 %\" }\n";
+    EXPECT_TRUE(measure_with(lines, "coarse").at("tolerance").is_null());
+    EXPECT_EQ(measure_with(lines, "medium").at("tolerance"), 0.02);
+    EXPECT_EQ(measure_with(lines, "fine").at("tolerance"), 0.02);
+    EXPECT_EQ(measure_with(lines, "paper").at("tolerance"), 0.01);
+}
+
+TEST(Measures, ToleranceOfALevelIsCheckedAtEveryLevel)
+{
+    const auto with = [](const std::string& tolerance) {
+        return refusal(drop_case +
+                       "[[measure]]\nbetween = [\"0 s\", \"end\"]\nname = \"base_radius\"\n"
+                       "reference = { kind = \"exact\" }\ntolerance = " +
+                       tolerance + "\n");
+    };
+    EXPECT_THAT(with("{ fine = \"-1 %\" }"), HasSubstr("case.toml:26:22: measure.0.tolerance: is not above zero"));
+    EXPECT_THAT(with("{ fone = \"1 %\" }"), HasSubstr("tolerance.fone: there is no such level"));
+    EXPECT_THAT(with("{ coarse = \"1 %\", fine = \"1 m\" }"), HasSubstr("has the unit m instead of 1"));
+    EXPECT_THAT(with("{}"), HasSubstr("names no level"));
+    EXPECT_EQ(with("{ value = \"1 %\", source = \"a table\" }"), "");
 }
 
 TEST(TypedCase, RefusesJsonThatIsNoResolvedCase)

@@ -16,11 +16,15 @@ from tests import synthetic
 if sys.argv[1] == "schema":
     print(json.dumps({{"title": "case"}}))
     sys.exit(0)
+name = sys.argv[2].split("/")[-2]
+if sys.argv[1] == "summary":
+    member = {{"name": name, "variation": None, "title": "stand-in", "levels": ["coarse", "medium", "fine"]}}
+    print(json.dumps({{"tier": "v0", "members": [member]}}))
+    sys.exit(0)
 settings = dict(text.split("=", 1) for text in sys.argv[3:] if "=" in text)
 if "bad" in settings:
     print(f"{{sys.argv[2]}}:3:1: laser.pwoer: unknown key; did you mean 'laser.power'?", file=sys.stderr)
     sys.exit(2)
-name = sys.argv[2].split("/")[-2]
 case = synthetic.resolved_drop(4e-4) | {{"name": name, "numerics": settings}}
 case["time"] = {{"end": 0.02, "output_interval": 0.01}}
 print(json.dumps(synthetic.with_hash(case)))
