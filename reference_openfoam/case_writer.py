@@ -158,7 +158,7 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
     if "heat" in case.physics:
         write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
                     _boundary(case, lambda side: _wall_temperature(case, side), _inflow(case, ambient_temperature(case))))
-    elif {"marangoni", "recoil"} & set(case.physics):
+    elif case.has_temperature:
         # frozen: the linear field up to the sides, so that its gradient is exact in the cells along them
         conditions = {}
         for side, patch_type in patch_types(case).items():
