@@ -19,7 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     run = commands.add_parser("run", help="run a resolved case")
     run.add_argument("case", type=Path, help="resolved case, JSON as `cupel_case resolve` prints it")
     run.add_argument("--output", type=Path, required=True, help="folder for the result")
-    run.add_argument("--threads", type=int, default=1, help="cores that may be used; this solver uses one")
+    run.add_argument("--threads", "-np", type=int, default=1, dest="threads", help="ranks to run side by side (MPI), at most")
     run.add_argument("--resume", action="store_true", help="go on from the newest checkpoint in the output folder")
     write = commands.add_parser("write", help="write the OpenFOAM case only")
     write.add_argument("case", type=Path, help="resolved case, JSON")

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from .blocks import block_counts
+from .case_folder import CaseFolder
 from .errors import Refused
-from .foam_files import entry, header, scalar_list, vector_list, write_dictionary, write_field
-from .grid import Grid, make_grid, write_mesh
+from .foam_files import boundary_section, dictionary, entry, header, scalar_list, vector_list, write_dictionary, write_field
+from .grid import Grid, make_grid
+from .mesh_files import write_mesh
+from .moving_mesh import Window
 from .resolved_case import SIDES, ResolvedCase
 from .volume_fractions import contains, top_of_bodies, volume_fractions
 
@@ -27,24 +32,58 @@ NUMERICS = {
     "pressure_correctors": 2,
     "temperature_tolerance": 0.5,
     "energy_iterations": 25,
+    "ray_tracing": False,
 }
 NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
 PATCH_TYPES = {"wall": "wall", "symmetry": "symmetryPlane", "open": "patch", "periodic": "cyclic"}
 TEMPERATURE = "[0 0 0 1 0 0 0]"
+BETWEEN_RANKS = {'"procBoundary.*"': {"type": "processor"}}          # in every field; without effect in a serial case
 
 
-def write_case(case: ResolvedCase, folder: Path, grid: Grid | None = None) -> Grid:
-    """Write the OpenFOAM case of a resolved case into `folder`; returns its grid (made here if none is given).
+def write_case(case: ResolvedCase, folder: Path, ranks: int = 1, grid: Grid | None = None, fraction: np.ndarray | None = None,
+               window: Window | None = None) -> CaseFolder:
+    """Write the OpenFOAM case of a resolved case into `folder`, divided among at most `ranks` ranks.
 
+    grid and fraction (n,): made here if they are not given; window: of a mesh that follows the beam.
     Errors: Refused for a bed file that cannot be read.
     """
     grid = grid or make_grid(case, top_of_bodies(case))
-    fraction = volume_fractions(case, grid)
-    write_mesh(grid, patch_types(case), folder)
-    _write_start_fields(case, grid, fraction, folder/"0")
-    _write_properties(case, folder)
-    _write_system(folder, "flow" in case.physics)
-    return grid
+    written = CaseFolder(folder, grid, block_counts(case, grid, ranks))
+    fraction = volume_fractions(case, grid) if fraction is None else fraction
+    write_frame(case, written, window)
+    for part, block in written.parts():
+        _write_start_fields(case, block, written.part(fraction, block), part/"0")
+    return written
+
+
+def write_frame(case: ResolvedCase, written: CaseFolder, window: Window | None = None) -> None:
+    """Write everything of a case but its fields: meshes, properties, control, and the description of its grid."""
+    for part, block in written.parts():
+        write_mesh(block, patch_types(case), part)
+    _write_properties(case, written.path, window)
+    _write_system(written.path, "flow" in case.physics)
+    if written.ranks > 1:
+        write_dictionary(written.path/"system"/"decomposeParDict", {"numberOfSubdomains": written.ranks, "method": "manual"})
+    written.save()
+
+
+def boundary_sections(case: ResolvedCase, scratch: Path) -> dict[str, str]:
+    """Text of boundaryField of each start field by its name, for fields on another mesh (scratch: a folder for a moment).
+
+    Only for cases whose sides have uniform values, as those with a beam have.
+    """
+    one_cell = Grid(*(np.array([a, b], dtype=float) for a, b in zip(case.lower, case.upper)), False)
+    _write_start_fields(case, one_cell, np.zeros(1), scratch)
+    sections = {path.name: boundary_section(path) for path in scratch.iterdir()}
+    shutil.rmtree(scratch)
+    return sections
+
+
+def calculated_boundaries(case: ResolvedCase) -> str:
+    """Text of boundaryField of a field that has no conditions of its own."""
+    conditions = {side: {"type": "calculated", "value": "uniform 0"} if kind in ("wall", "patch") else {"type": kind}
+                  for side, kind in patch_types(case).items()}
+    return dictionary({"boundaryField": conditions | BETWEEN_RANKS})
 
 
 def patch_types(case: ResolvedCase) -> dict[str, str]:
@@ -100,7 +139,7 @@ def _boundary(case: ResolvedCase, wall, opening: dict[str, Any]) -> dict[str, di
             conditions[side] = opening
         else:
             conditions[side] = {"type": patch_type}
-    return conditions
+    return conditions | BETWEEN_RANKS
 
 
 def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, folder: Path) -> None:
@@ -125,7 +164,8 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
         for side, patch_type in patch_types(case).items():
             values = scalar_list(start_temperature(case, grid.side_centres(side)))
             conditions[side] = {"type": "fixedValue", "value": values} if patch_type in ("wall", "patch") else {"type": patch_type}
-        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())), conditions)
+        write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
+                    conditions | BETWEEN_RANKS)
 
 
 def _inflow(case: ResolvedCase, value: float) -> dict[str, Any]:
@@ -176,7 +216,22 @@ def _primary_entries(case: ResolvedCase) -> dict[str, Any]:
     return entries
 
 
-def _write_properties(case: ResolvedCase, folder: Path) -> None:
+# Keys of [numerics] and [numerics.openfoam] that override the above.
+OVERRIDES = {"time_step_factor": "time_step_factor"}
+OWN_OVERRIDES = {"max_courant": "courant_limit", "max_alpha_courant": "interface_courant_limit",
+                 "curvature_smoothing": "curvature_smoothing_passes", "ray_tracing": "ray_tracing"}
+
+
+def numerics(case: ResolvedCase) -> dict[str, Any]:
+    """The reference's numerics, with what the case overrides."""
+    given, own = case.data["numerics"], case.data["numerics"].get("openfoam") or {}
+    result = dict(NUMERICS)
+    for source, names in ((given, OVERRIDES), (own, OWN_OVERRIDES)):
+        result |= {ours: source[name] for name, ours in names.items() if source.get(name) is not None}
+    return result
+
+
+def _write_properties(case: ResolvedCase, folder: Path, window: Window | None) -> None:
     surrounding = case.data.get("surrounding") or {}
     entries: dict[str, Any] = {
         "physics": case.physics,
@@ -189,8 +244,10 @@ def _write_properties(case: ResolvedCase, folder: Path) -> None:
         "end_time": case.end,
         "output_interval": case.output_interval,
         "spacing": case.spacing,
-        "numerics": NUMERICS,
+        "numerics": numerics(case),
     }
+    if window is not None:
+        entries["mesh_window"] = window.entries()
     if "laser" in case.physics:
         laser = case.data["laser"]
         entries["laser"] = {key: float(laser[key]) for key in ("power", "speed", "spot_radius", "absorptivity", "start")}

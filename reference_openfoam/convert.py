@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from .foam_files import read_field
+from .case_folder import CaseFolder
 from .grid import Grid
 from .resolved_case import ResolvedCase
 
@@ -37,12 +37,17 @@ def liquid_fraction(case: ResolvedCase, temperature: np.ndarray | None, cells: i
 
 
 class SnapshotWriter:
-    """Writes the VTK files of one run; keeps the mesh."""
+    """Writes the VTK files of one run into `folder`; keeps the mesh as long as it stays the same."""
 
-    def __init__(self, case: ResolvedCase, grid: Grid, folder: Path):
-        self.case, self.grid, self.folder = case, grid, folder
+    def __init__(self, case: ResolvedCase, folder: Path):
+        self.case, self.folder = case, folder
+        self.grid: Grid | None = None
         folder.mkdir(parents=True, exist_ok=True)
-        self.volumes = grid.cell_volumes()
+
+    def _take_mesh(self, grid: Grid) -> None:
+        if grid is self.grid:
+            return
+        self.grid, self.volumes = grid, grid.cell_volumes()
         self.mesh = vtkUnstructuredGrid()
         points = vtkPoints()
         points.SetDataTypeToDouble()
@@ -55,29 +60,30 @@ class SnapshotWriter:
                       numpy_to_vtkIdTypeArray(corners.ravel().astype(np.int64), deep=True))
         self.mesh.SetCells(VTK_HEXAHEDRON, cells)
 
-    def fields(self, time_folder: Path) -> dict[str, np.ndarray]:
+    def fields(self, written: CaseFolder, time: str) -> dict[str, np.ndarray]:
         """The fields of a written time by their names in a result, (n,) or (n, 3), SI."""
         case, cells = self.case, self.grid.cell_count
-        fraction = read_field(time_folder/"fraction", cells)
+        fraction = written.read(time, "fraction")
         density = fraction*case.primary["density"] + (1 - fraction)*case.surrounding["density"]
         result = {"fraction": np.clip(fraction, 0, 1), "volume": self.volumes, "density": density}
         temperature = None
         if case.has_temperature:
-            temperature = result["temperature"] = read_field(time_folder/"T", cells)
+            temperature = result["temperature"] = written.read(time, "T")
         if "heat" in case.physics:
-            result["peak_temperature"] = read_field(time_folder/"peak_temperature", cells)
+            result["peak_temperature"] = written.read(time, "peak_temperature")
         if "flow" in case.physics:
-            result["velocity"] = read_field(time_folder/"U", cells)
+            result["velocity"] = written.read(time, "U")
             height = self.grid.cell_centres() @ np.array(case.data["gravity"]) if "gravity" in case.physics else 0.0
-            result["pressure"] = read_field(time_folder/"p_rgh", cells) + density*height
+            result["pressure"] = written.read(time, "p_rgh") + density*height
         result["liquid_fraction"] = liquid_fraction(case, temperature, cells)
         return result
 
-    def write(self, time_folder: Path, index: int) -> Path:
-        """Write snapshot `index` from a time folder; beside its name first, then renamed."""
+    def write(self, written: CaseFolder, time: str, index: int) -> Path:
+        """Write snapshot `index` from a written time; beside its name first, then renamed."""
+        self._take_mesh(written.grid)
         data = self.mesh.GetCellData()
         data.Initialize()
-        for name, values in self.fields(time_folder).items():
+        for name, values in self.fields(written, time).items():
             array = numpy_to_vtk(np.ascontiguousarray(values, dtype=np.float64 if name == "volume" else np.float32), deep=True)
             array.SetName(name)
             data.AddArray(array)

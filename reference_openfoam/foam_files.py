@@ -29,10 +29,9 @@ def entry(value: Any) -> str:
 
 
 def dictionary(entries: dict[str, Any], indent: int = 0) -> str:
-    """Nested dict as text; keys that are no plain words are put in quotes."""
+    """Nested dict as text; a key that is a pattern brings its own quotes."""
     text, space = "", " "*indent
     for key, value in entries.items():
-        key = key if re.fullmatch(r"[A-Za-z_]\w*", key) else f'"{key}"' if "|" in key else key
         if isinstance(value, dict):
             text += f"{space}{key}\n{space}{{\n{dictionary(value, indent + 4)}{space}}}\n"
         else:
@@ -59,9 +58,24 @@ def vector_list(values: np.ndarray) -> str:
 
 def write_field(path: Path, kind: str, dimensions: str, internal: str, boundary: dict[str, dict[str, Any]]) -> None:
     """Write a field file. kind: volScalarField or volVectorField; dimensions: e.g. `[0 1 -1 0 0 0 0]`."""
+    write_field_with(path, kind, dimensions, internal, dictionary({"boundaryField": boundary}))
+
+
+def vector_list(values: np.ndarray) -> str:
+    """(n, 3) as `nonuniform List<vector> n(...)`."""
+    return f"nonuniform List<vector> {len(values)}\n(\n" + "\n".join("(%r %r %r)" % tuple(row) for row in values.tolist()) + "\n)"
+
+
+def write_field_with(path: Path, kind: str, dimensions: str, internal: str, boundary_section: str) -> None:
+    """Write a field file whose boundaryField is there as text."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(header(kind, path.name) + f"dimensions {dimensions};\n\ninternalField {internal};\n\n"
-                    + dictionary({"boundaryField": boundary}))
+    path.write_text(header(kind, path.name) + f"dimensions {dimensions};\n\ninternalField {internal};\n\n{boundary_section}")
+
+
+def boundary_section(path: Path) -> str:
+    """The text of boundaryField of a field file in ASCII form."""
+    text = path.read_text()
+    return text[text.index("boundaryField"):]
 
 
 def read_field(path: Path, cells: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The mesh: a block of hexahedra on three sets of grid lines, written as OpenFOAM's polyMesh.
+"""The grid: a block of hexahedra on three sets of grid lines (mesh_files.py writes it as OpenFOAM's polyMesh).
 
 Cells are of the case's spacing wherever things happen. In scenes with a laser they widen geometrically outside a corridor
 around the beam's path; columns along z stay columns, which the laser source relies on. Cell (i, j, k) has the label
@@ -8,11 +8,9 @@ i + nx (j + ny k).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from .foam_files import header
 from .resolved_case import ResolvedCase
 
 WIDENING = 1.25                 # ratio of one cell to the next outside the corridor
@@ -77,9 +75,17 @@ class Grid:
         axis = {"x": 2, "y": 1, "z": 0}[side[0]]
         return np.take(labels, 0 if side.endswith("min") else -1, axis=axis).ravel()
 
+    def is_outer(self, side: str) -> bool:
+        """Whether a side is one of the domain's (of a block of a divided grid some are not, see blocks.py)."""
+        return True
+
+    def patch_cells(self, side: str) -> np.ndarray:
+        """Labels of the cells along a side of the domain; none if this side is not one."""
+        return self.side_cells(side) if self.is_outer(side) else np.empty(0, dtype=int)
+
     def side_centres(self, side: str) -> np.ndarray:
-        """(faces, 3) m: centres of a side's faces."""
-        centres = self.cell_centres()[self.side_cells(side)]
+        """(faces, 3) m: centres of the faces on a side of the domain."""
+        centres = self.cell_centres()[self.patch_cells(side)]
         axis = "xyz".index(side[0])
         centres[:, axis] = (self.x, self.y, self.z)[axis][0 if side.endswith("min") else -1]
         return centres
@@ -144,63 +150,3 @@ def plate_surface(case: ResolvedCase) -> float:
     tops = [body["upper"][2] for body in case.data["bodies"]
             if body["shape"] == "box" and body["material"] == case.primary_name]
     return max(tops) if tops else case.upper[2]
-
-
-def _faces(grid: Grid) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Internal faces (m, 4), owner (m,), neighbour (m,) in OpenFOAM's upper-triangular order."""
-    nx, ny, nz = grid.shape
-    i, j, k = grid.cell_indices()
-    label = np.arange(grid.cell_count)
-    corners = {0: ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)), 1: ((0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)),
-               2: ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))}
-    faces, owners, neighbours = [], [], []
-    for axis, (inside, offset) in enumerate(((i < nx - 1, 1), (j < ny - 1, nx), (k < nz - 1, nx*ny))):
-        faces.append(np.column_stack([grid.point_label(i + a, j + b, k + c)[inside] for a, b, c in corners[axis]]))
-        owners.append(label[inside])
-        neighbours.append(label[inside] + offset)
-    owner, neighbour = np.concatenate(owners), np.concatenate(neighbours)
-    order = np.lexsort((neighbour, owner))
-    return np.concatenate(faces)[order], owner[order], neighbour[order]
-
-
-def _side_faces(grid: Grid, side: str) -> np.ndarray:
-    """(faces, 4) point labels of a side, turned outward."""
-    outward = {"x_min": ((0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0)), "x_max": ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)),
-               "y_min": ((0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1)), "y_max": ((0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)),
-               "z_min": ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)), "z_max": ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))}
-    cells = grid.side_cells(side)
-    i, j, k = (index[cells] for index in grid.cell_indices())
-    return np.column_stack([grid.point_label(i + a, j + b, k + c) for a, b, c in outward[side]])
-
-
-def write_mesh(grid: Grid, patches: dict[str, str], folder: Path) -> None:
-    """Write constant/polyMesh of an OpenFOAM case.
-
-    patches: side (x_min ... z_max) to OpenFOAM's patch type, in the order in which they are to stand.
-    """
-    mesh = folder/"constant"/"polyMesh"
-    mesh.mkdir(parents=True, exist_ok=True)
-    faces, owner, neighbour = _faces(grid)
-    entries, start = [], len(faces)
-    all_faces, all_owners = [faces], [owner]
-    for side, kind in patches.items():
-        side_faces = _side_faces(grid, side)
-        extra = ""
-        if kind == "cyclic":
-            extra = f" neighbourPatch {side[:2]}{'max' if side.endswith('min') else 'min'}; matchTolerance 1e-4;"
-        entries.append(f"    {side} {{ type {kind}; nFaces {len(side_faces)}; startFace {start};{extra} }}\n")
-        all_faces.append(side_faces)
-        all_owners.append(grid.side_cells(side))
-        start += len(side_faces)
-    points, faces, owner = grid.points(), np.concatenate(all_faces), np.concatenate(all_owners)
-    note = (f"nPoints:{len(points)} nCells:{grid.cell_count} nFaces:{len(faces)} nInternalFaces:{len(neighbour)}")
-    _write_list(mesh/"points", header("vectorField", "points"), points, "(%.15g %.15g %.15g)")
-    _write_list(mesh/"faces", header("faceList", "faces"), faces, "4(%d %d %d %d)")
-    _write_list(mesh/"owner", header("labelList", "owner", note=note), owner[:, None], "%d")
-    _write_list(mesh/"neighbour", header("labelList", "neighbour", note=note), neighbour[:, None], "%d")
-    (mesh/"boundary").write_text(header("polyBoundaryMesh", "boundary") + f"{len(patches)}\n(\n" + "".join(entries) + ")\n")
-
-
-def _write_list(path: Path, head: str, rows: np.ndarray, form: str) -> None:
-    body = "\n".join(form % tuple(row) for row in rows.tolist())
-    path.write_text(f"{head}{len(rows)}\n(\n{body}\n)\n")

@@ -18,6 +18,7 @@ from .errors import Refused
 from .grid import Grid
 from .resolved_case import ResolvedCase
 
+CHUNK = 20000       # cut cells that are sampled at a time: 0.5 GB of sample points
 SAMPLES = 10        # sub-samples along each edge of a cut cell: volume of a disc of 16 cells across to about 1e-5
 
 
@@ -68,32 +69,40 @@ def top_of_bodies(case: ResolvedCase) -> float:
 def volume_fractions(case: ResolvedCase, grid: Grid) -> np.ndarray:
     """Share of the primary material in every cell, (n,) 0..1."""
     lines = (grid.x, grid.y, grid.z)
-    bodies = []
+    bodies = [(body, body_spheres(body, case.is_planar)) for body in case.data["bodies"]]
+    near = {id(spheres): [_cells_near(_reach(body, sphere), lines, grid) for sphere in spheres] for body, spheres in bodies}
     cut = np.zeros(grid.cell_count, dtype=bool)
-    for body in case.data["bodies"]:
-        spheres = body_spheres(body, case.is_planar)
-        bodies.append((body, spheres))
-        for sphere in spheres:
-            cut[_cells_near(_reach(body, sphere), lines, grid)] = True
+    for cells in (cells for parts in near.values() for cells in parts):
+        cut[cells] = True
+    fraction = np.zeros(grid.cell_count)
+    for body, _ in bodies:
         if body.get("surface_wave"):
             cut[_cells_at_wave(body, grid)] = True
-    fraction = np.zeros(grid.cell_count)
-    samples = _sample_points(grid, np.flatnonzero(cut))
-    widths = np.column_stack([np.diff(line)[index[cut]] for line, index in zip(lines, grid.cell_indices())])/SAMPLES
-    inside = np.zeros(samples.shape[:2])
+        if body["shape"] == "box":
+            share = _box_share(body, grid)
+            fraction = fraction + share*(1 - fraction) if body["material"] == case.primary_name else fraction*(1 - share)
     row_of = np.full(grid.cell_count, -1)
-    row_of[cut] = np.arange(np.count_nonzero(cut))
+    for cells in np.array_split(np.flatnonzero(cut), max(1, np.count_nonzero(cut)//CHUNK)):
+        row_of[cells] = np.arange(len(cells))
+        fraction[cells] = _sampled(case, grid, bodies, near, cells, row_of)
+        row_of[cells] = -1
+    return fraction
+
+
+def _sampled(case: ResolvedCase, grid: Grid, bodies: list, near: dict, cells: np.ndarray, row_of: np.ndarray) -> np.ndarray:
+    """Share of some cells (m,) in the primary material, by their sample points; row_of: place of a cell among them, or -1."""
+    samples = _sample_points(grid, cells)
+    widths = np.column_stack([np.diff(line)[index[cells]] for line, index in zip((grid.x, grid.y, grid.z), grid.cell_indices())])/SAMPLES
+    inside = np.zeros(samples.shape[:2])
     for body, spheres in bodies:
         fills = body["material"] == case.primary_name
         if body["shape"] == "box":
-            share = _box_share(body, grid)
-            fraction = fraction + share*(1 - fraction) if fills else fraction*(1 - share)
             _lay_over(inside, slice(None), _box_samples(body, samples, widths, grid.planar), fills)
-        for sphere in spheres:
-            rows = row_of[_cells_near(_reach(body, sphere), lines, grid)]
+        for sphere, touched in zip(spheres, near[id(spheres)]):
+            rows = row_of[touched]
+            rows = rows[rows >= 0]
             _lay_over(inside, rows, _sphere_samples(body, sphere, samples[rows], widths[rows], grid.planar), fills)
-    fraction[cut] = inside.mean(axis=1)
-    return fraction
+    return inside.mean(axis=1)
 
 
 def _lay_over(inside: np.ndarray, rows: np.ndarray | slice, share: np.ndarray, fills: bool) -> None:

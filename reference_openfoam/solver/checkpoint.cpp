@@ -34,6 +34,7 @@ void install_stop_signals()
 {
     std::signal(SIGINT, remember_stop);
     std::signal(SIGTERM, remember_stop);
+    std::signal(SIGUSR1, remember_stop);
     std::signal(SIGPIPE, SIG_IGN); // whoever read the progress is gone; SIGTERM comes too
 }
 
@@ -52,6 +53,8 @@ void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, c
     entries.set("steps", state.steps);
     entries.set("wall_seconds", state.wall_seconds);
     entries.set("cpu_seconds", state.cpu_seconds);
+    entries.set("next_row", state.next_row);
+    entries.set("time", clock.value());
     dictionary ledger_entries, step_entries;
     ledgers.save(ledger_entries);
     time_step.save(step_entries);
@@ -67,7 +70,7 @@ void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, c
     mv(folder / "complete.part", folder / "complete");
 }
 
-bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state)
+bool restore_checkpoint(Time& clock, const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state)
 {
     IOobject file(state_file(mesh, IOobject::READ_IF_PRESENT));
     if (!isFile(mesh.time().path() / mesh.time().timeName() / "uniform" / "cupelState")) return false;
@@ -75,6 +78,8 @@ bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_ste
     entries.readEntry("steps", state.steps);
     entries.readEntry("wall_seconds", state.wall_seconds);
     entries.readEntry("cpu_seconds", state.cpu_seconds);
+    entries.readEntry("next_row", state.next_row);
+    clock.setTime(instant(entries.get<scalar>("time"), clock.timeName()), clock.timeIndex());
     ledgers.restore(entries.subDict("ledgers"));
     time_step.restore(entries.subDict("time_step"));
     return true;

@@ -8,7 +8,7 @@
 
 namespace cupel
 {
-/// From here on SIGINT and SIGTERM ask the run to stop after the present step.
+/// From here on SIGINT, SIGTERM and SIGUSR1 (which mpirun passes on) ask the run to stop after the present step.
 void install_stop_signals();
 bool stop_requested();
 
@@ -17,6 +17,7 @@ struct RunState
 {
     label steps = 0;
     scalar wall_seconds = 0, cpu_seconds = 0; ///< of earlier runs that this one goes on from
+    scalar next_row = -GREAT;                 ///< when the history's next row is due [s]
 };
 
 /// Writes all fields and the run's state at the present time, then the mark `complete` that lists every file with its
@@ -24,6 +25,7 @@ struct RunState
 void write_checkpoint(Time& clock, const fvMesh& mesh, const Ledgers& ledgers, const TimeStep& time_step,
                       const RunState& state);
 
-/// Takes the state back from the folder that the clock started from. False if the run starts afresh.
-bool restore_checkpoint(const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state);
+/// Takes the state back from the folder that the clock started from, and sets the clock to the exact time (the folder's
+/// name is rounded). False if the run starts afresh.
+bool restore_checkpoint(Time& clock, const fvMesh& mesh, Ledgers& ledgers, TimeStep& time_step, RunState& state);
 } // namespace cupel

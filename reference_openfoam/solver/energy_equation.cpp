@@ -59,6 +59,36 @@ scalar EnergyEquation::stored_energy() const
     return volume_integral(volumetric_enthalpy(fields_.fraction)().primitiveField(), fields_.mesh);
 }
 
+tmp<volScalarField> EnergyEquation::primary_enthalpy() const
+{
+    const PrimaryMaterial& primary = scene_.primary;
+    return tmp<volScalarField>(
+        new volScalarField(IOobject("primary_enthalpy", fields_.mesh.time().timeName(), fields_.mesh, IOobject::NO_READ,
+                                    IOobject::AUTO_WRITE),
+                           map_field(fields_.heat->temperature, "primary_enthalpy", specific_energy_dimensions,
+                                     [&primary](scalar temperature) { return primary.enthalpy(temperature); })));
+}
+
+void EnergyEquation::restore_from_enthalpy()
+{
+    IOobject file("volumetric_enthalpy", fields_.mesh.time().timeName(), fields_.mesh, IOobject::MUST_READ,
+                  IOobject::NO_WRITE, false);
+    if (!file.typeHeaderOk<volScalarField>()) return;
+    const volScalarField enthalpy(file, fields_.mesh);
+    volScalarField& T = fields_.heat->temperature;
+    forAll (T, cell)
+        T[cell] = inverted(cell, enthalpy[cell]);
+    T.correctBoundaryConditions();
+}
+
+scalar EnergyEquation::inverted(label cell, scalar enthalpy) const
+{
+    const scalar share = fields_.fraction[cell];
+    return scene_.primary.mixture_temperature(enthalpy, max(share, scalar(0)) * scene_.primary.density,
+                                              max(1 - share, scalar(0)) * scene_.surrounding.density *
+                                                  scene_.surrounding.specific_heat);
+}
+
 EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
 {
     const fvMesh& mesh = fields_.mesh;
@@ -150,9 +180,7 @@ EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
         change = 0;
         forAll (T, cell) {
             const scalar enthalpy = last_enthalpy[cell] + heat_capacity[cell] * (T[cell] - last_T[cell]);
-            T[cell] =
-                primary.mixture_temperature(enthalpy, max(fields_.fraction[cell], scalar(0)) * primary.density,
-                                            max(1 - fields_.fraction[cell], scalar(0)) * surrounding_capacity.value());
+            T[cell] = inverted(cell, enthalpy);
             change = max(change, mag(T[cell] - last_T[cell]));
         }
         reduce(change, maxOp<scalar>());

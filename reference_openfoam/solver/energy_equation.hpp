@@ -33,6 +33,10 @@ public:
 
     /// ∫ H dV [J].
     scalar stored_energy() const;
+    /// h of the primary material at T in cells, to be written beside a checkpoint that goes on to another mesh.
+    tmp<volScalarField> primary_enthalpy() const;
+    /// Takes T from the field `volumetric_enthalpy` that another mesh has left beside the start, if there is one.
+    void restore_from_enthalpy();
     label iterations() const { return iterations_; }
 
 private:
@@ -41,6 +45,8 @@ private:
     /// Capacity dH/dT at the present T [J/(m³·K)].
     tmp<volScalarField> capacity() const;
     tmp<surfaceScalarField> conductivity() const;
+    /// T of the mixture in a cell whose volumetric enthalpy is H [J/m³].
+    scalar inverted(label cell, scalar enthalpy) const;
 
     const Scene& scene_;
     Fields& fields_;

@@ -57,6 +57,12 @@ void check_fields(const Scene& scene, const Fields& fields, const TimeStep& time
                " of the output interval");
     label troubled = trouble.empty() ? 0 : 1;
     reduce(troubled, sumOp<label>());
-    if (troubled) throw Diverged(trouble.empty() ? "another rank has diverged" : trouble);
+    if (!troubled) return;
+    List<string> troubles(Pstream::nProcs());
+    troubles[Pstream::myProcNo()] = trouble;
+    Pstream::gatherList(troubles);
+    Pstream::scatterList(troubles);
+    for (const string& text : troubles)
+        if (!text.empty()) throw Diverged(text);
 }
 } // namespace cupel

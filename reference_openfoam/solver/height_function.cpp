@@ -4,6 +4,7 @@
 
 #include "fixedGradientFvPatchFields.H"
 #include "height_function.hpp"
+#include "processorFvPatch.H"
 
 namespace cupel
 {
@@ -27,6 +28,7 @@ HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, s
     const fvMesh& mesh = fraction.mesh();
     forAll (mesh.boundary(), patch) {
         const fvPatch& boundary = mesh.boundary()[patch];
+        if (isA<processorFvPatch>(boundary)) continue; // other ranks have others, and the sum below is over all ranks
         const fvPatchScalarField& values = fraction.boundaryField()[patch];
         const bool wets = isA<fixedGradientFvPatchScalarField>(values);
         const bool continues =

@@ -7,11 +7,16 @@ InterfaceGeometry::InterfaceGeometry(const Scene& scene, Fields& fields)
     : scene_(scene), fields_(fields), smoothing_passes_(scene.numerics.get<label>("curvature_smoothing_passes")),
       averaging_passes_(scene.numerics.get<label>("curvature_averaging_passes")),
       use_heights_(scene.numerics.get<bool>("height_functions")),
-      tiny_gradient_("tiny_gradient", dimless / dimLength, 1e-8 / scene.spacing)
+      tiny_gradient_("tiny_gradient", dimless / dimLength, 1e-8 / scene.spacing),
+      normal_flux_(IOobject("normal_flux", fields.mesh.time().timeName(), fields.mesh, IOobject::READ_IF_PRESENT,
+                            IOobject::AUTO_WRITE),
+                   fields.mesh, dimensionedScalar(dimArea, Zero))
 {
     if (scene.physics.surface_tension && use_heights_)
         heights_.reset(new HeightFunction(fields.fraction, scene.spacing, scene.primary.contact_angle));
-    update();
+    // The wall gradient of α that a step leaves is the start of the next one's normals: geometry computed once more
+    // after a checkpoint would not be that of the unbroken run.
+    if (!normal_flux_.headerOk()) update();
 }
 
 tmp<surfaceVectorField> InterfaceGeometry::face_normals(volScalarField& smooth, const volVectorField& gradient) const
@@ -28,12 +33,12 @@ void InterfaceGeometry::update()
     const fvMesh& mesh = fields_.mesh;
     gradient_.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields_.fraction)));
     const tmp<surfaceVectorField> normals = face_normals(fields_.fraction, gradient_());
-    normal_flux_.reset(new surfaceScalarField("normal_flux", normals() & mesh.Sf()));
+    normal_flux_ = normals() & mesh.Sf();
     if (!scene_.physics.surface_tension) return;
 
     tmp<volScalarField> curvature;
     if (smoothing_passes_ == 0) {
-        curvature = -fvc::div(normal_flux_());
+        curvature = -fvc::div(normal_flux_);
     }
     else {
         volScalarField smooth("smooth_fraction", fields_.fraction);

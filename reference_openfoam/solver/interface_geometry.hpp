@@ -22,10 +22,8 @@ public:
     void update();
 
     const volVectorField& gradient() const { return *gradient_; } ///< ∇α [1/m]
-    const surfaceScalarField& normal_flux() const
-    {
-        return *normal_flux_;
-    } ///< n̂·S on faces [m²], for the compression of α
+    /// n̂·S on faces [m²], for the compression of α; written with the fields, because the next step starts from it.
+    const surfaceScalarField& normal_flux() const { return normal_flux_; }
     const surfaceScalarField& curvature() const { return *curvature_; } ///< κ on faces [1/m]; only with surface_tension
     /// Unit normal in cells, 0 away from the interface.
     tmp<volVectorField> unit_normal() const;
@@ -41,6 +39,7 @@ private:
     const dimensionedScalar tiny_gradient_;
     autoPtr<HeightFunction> heights_;
     autoPtr<volVectorField> gradient_;
-    autoPtr<surfaceScalarField> normal_flux_, curvature_;
+    surfaceScalarField normal_flux_;
+    autoPtr<surfaceScalarField> curvature_;
 };
 } // namespace cupel

@@ -1,8 +1,10 @@
 /// cupel_foam: a volume-of-fluid melting solver on OpenFOAM, the grid-based reference of Cupel's SPH solver.
 ///
-/// Usage: cupel_foam -case FOLDER, where FOLDER is a case as reference_openfoam/case_writer.py writes it.
-/// Starts from the newest time in FOLDER. Exit status: 0 completed, 1 stopped, 2 refused, 130 interrupted with a
-/// checkpoint.
+/// Usage: cupel_foam [-parallel] -case FOLDER, where FOLDER is a case as reference_openfoam/case_writer.py writes it.
+/// Starts from the newest time in FOLDER; history and outcome go to the folder around it. Exit status: 0 completed,
+/// 1 stopped, 2 refused, 3 the fine part of the mesh must move on (a checkpoint is there), 130 interrupted with a
+/// checkpoint. Side by side (-parallel) the status of the process is 0 whatever the end; the last line on standard
+/// output says {"ended":STATUS} in any case.
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -14,6 +16,7 @@
 #include "checkpoint.hpp"
 #include "energy_equation.hpp"
 #include "guards.hpp"
+#include "mesh_window.hpp"
 #include "momentum_equation.hpp"
 #include "outcome.hpp"
 #include "scene.hpp"
@@ -35,8 +38,10 @@ void flush_denormals()
 /// The whole run: everything that the scene needs, and the loop over steps.
 int run_scene(Time& clock, const fvMesh& mesh)
 {
-    const Scene scene(
-        IOdictionary(IOobject("cupelProperties", clock.constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)));
+    const IOdictionary properties(
+        IOobject("cupelProperties", clock.constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE));
+    const Scene scene(properties);
+    const MeshWindow window(scene, properties);
     Fields fields(mesh, scene);
     autoPtr<InterfaceGeometry> geometry;
     if (scene.physics.flow) geometry.reset(new InterfaceGeometry(scene, fields));
@@ -46,19 +51,22 @@ int run_scene(Time& clock, const fvMesh& mesh)
     autoPtr<EnergyEquation> energy;
     if (scene.physics.heat) energy.reset(new EnergyEquation(scene, fields));
 
+    if (energy.valid()) energy->restore_from_enthalpy();
     Ledgers ledgers(scene, fields, energy.valid() ? energy.operator->() : nullptr);
     TimeStep time_step(scene, fields);
     RunState state;
-    const bool resumed = restore_checkpoint(mesh, ledgers, time_step, state);
-    Outcome outcome(scene, fields, clock.path());
-    const auto checkpoint = [&]() {
+    const bool resumed = restore_checkpoint(clock, mesh, ledgers, time_step, state);
+    Outcome outcome(scene, fields, clock.globalPath().path());
+    const auto checkpoint = [&](bool mesh_must_follow) {
+        tmp<volScalarField> enthalpy; // registered while it is there, so written with the others
+        if (mesh_must_follow) enthalpy = energy->primary_enthalpy();
         RunState now = state;
         now.wall_seconds += outcome.wall_seconds();
         now.cpu_seconds += outcome.cpu_seconds();
         write_checkpoint(clock, mesh, ledgers, time_step, now);
     };
     EnergyRates rates;
-    if (!resumed) checkpoint();
+    if (!resumed) checkpoint(false);
     outcome.record(0, ledgers, rates, state);
 
     const scalar almost = 1e-9 * scene.end_time;
@@ -88,13 +96,16 @@ int run_scene(Time& clock, const fvMesh& mesh)
             return 1;
         }
         catch (const Foam::error& trouble) {
+            if (Pstream::parRun()) throw; // perhaps on one rank only: the others wait in vain
             outcome.finish("stopped", "OpenFOAM reports: " + trouble.message(), ledgers, time_step, state);
             return 1;
         }
         outcome.record(step, ledgers, rates, state);
         const bool interrupted = stop_requested();
-        if (interrupted || clock.value() >= target - almost) checkpoint();
+        const bool window_is_left = clock.value() < scene.end_time - almost && window.is_left(fields, clock.value());
+        if (interrupted || window_is_left || clock.value() >= target - almost) checkpoint(window_is_left);
         if (interrupted) return 130;
+        if (window_is_left) return 3;
     }
     outcome.finish("completed", "", ledgers, time_step, state);
     return 0;
@@ -115,6 +126,7 @@ int run_case(const argList& arguments)
     }
     catch (const Foam::error& trouble) {
         std::cerr << "cupel_foam: " << trouble.message() << std::endl;
+        if (Pstream::parRun()) UPstream::abort();
         return 2;
     }
 }
@@ -129,7 +141,7 @@ int main(int argc, char** argv)
         status = run_case(arguments);
     else
         std::cerr << "cupel_foam: " << arguments.path() << " is no case folder" << std::endl;
-    // argList's destructor would end the process with status 0
-    if (Pstream::parRun()) UPstream::exit(status);
-    std::exit(status);
+    if (Pstream::master()) std::cout << "{\"ended\":" << status << '}' << std::endl;
+    if (Pstream::parRun()) UPstream::exit(0); // any other status would have the ranks killed
+    std::exit(status);                        // argList's destructor would end the process with status 0
 }

@@ -36,9 +36,10 @@ std::string escaped(const std::string& text)
 } // namespace
 
 Outcome::Outcome(const Scene& scene, const Fields& fields, const fileName& folder)
-    : scene_(scene), fields_(fields), folder_(folder), history_(folder / "history.csv", std::ios::app),
-      next_row_(fields.mesh.time().value()), last_progress_(-GREAT), start_seconds_(seconds_now())
+    : scene_(scene), fields_(fields), folder_(folder), last_progress_(-GREAT), start_seconds_(seconds_now())
 {
+    if (!Pstream::master()) return;
+    history_.open(folder / "history.csv", std::ios::app);
     if (history_.tellp() > 0) return;
     history_ << "time_s,time_step_s,primary_volume_m3";
     if (scene.physics.flow) history_ << ",kinetic_energy_J,maximum_speed_m_per_s";
@@ -79,25 +80,28 @@ void Outcome::write_row(scalar step, const Ledgers& ledgers, const EnergyRates& 
                                      fields_.heat->temperature.primitiveField()))
                  << ',' << rates.surface_losses;
     if (scene_.physics.laser) history_ << ',' << rates.laser.absorbed;
-    history_ << '\n' << std::flush;
+    history_ << '\n' << std::flush; // not open, and so silent, but on the first rank
 }
 
-void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rates, const RunState& state)
+void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rates, RunState& state)
 {
     const scalar time = fields_.mesh.time().value();
-    if (time >= next_row_ - 1e-12 * scene_.end_time) {
+    if (time >= state.next_row - 1e-12 * scene_.end_time) {
         write_row(step, ledgers, rates);
-        next_row_ = time + 1e-3 * scene_.end_time;
+        state.next_row = time + 1e-3 * scene_.end_time;
     }
     const scalar now = seconds_now();
-    if (now - last_progress_ < 1 || !Pstream::master()) return;
+    label due = now - last_progress_ < 1 ? 0 : 1;
+    Pstream::scatter(due); // the first rank's clock decides, for the sums below need all ranks
+    if (!due) return;
     last_progress_ = now;
+    const std::string summary = ledgers.summary();
+    if (!Pstream::master()) return;
     char text[200];
     std::snprintf(text, sizeof text, "{\"progress\":{\"time\":%.9g,\"end\":%.9g,\"step\":%d,\"wall_s\":%.1f}}", time,
                   scene_.end_time, int(state.steps), state.wall_seconds + wall_seconds());
     std::cout << text << '\n'
-              << "t = " << time << " s, step " << state.steps << " of " << step << " s" << ledgers.summary()
-              << std::endl;
+              << "t = " << time << " s, step " << state.steps << " of " << step << " s" << summary << std::endl;
 }
 
 void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,

@@ -11,11 +11,11 @@ namespace cupel
 class Outcome
 {
 public:
-    /// Files go to `folder`, which is there; the history is added to.
+    /// Files go to `folder`, which is there; the history is added to, by the first rank.
     Outcome(const Scene& scene, const Fields& fields, const fileName& folder);
 
     /// One row of the history about every thousandth of the run, and one line of progress a second.
-    void record(scalar step, const Ledgers& ledgers, const EnergyRates& rates, const RunState& state);
+    void record(scalar step, const Ledgers& ledgers, const EnergyRates& rates, RunState& state);
 
     /// Wall and processor seconds of this process so far.
     scalar wall_seconds() const;
@@ -32,6 +32,6 @@ private:
     const Fields& fields_;
     const fileName folder_;
     std::ofstream history_;
-    scalar next_row_, last_progress_, start_seconds_;
+    scalar last_progress_, start_seconds_;
 };
 } // namespace cupel

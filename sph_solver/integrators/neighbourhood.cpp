@@ -5,8 +5,8 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-Neighbourhood::Neighbourhood(double support, double skin, double spacing, int dimensions)
-    : list_(support, skin, spacing, dimensions)
+Neighbourhood::Neighbourhood(double support, double skin, double spacing, int dimensions, Images images)
+    : list_(support, skin, spacing, dimensions, std::move(images))
 {}
 
 void Neighbourhood::compute_everywhere()

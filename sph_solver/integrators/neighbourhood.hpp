@@ -12,7 +12,7 @@ namespace cupel::inline CUPEL_ENGINE
 class Neighbourhood
 {
 public:
-    Neighbourhood(double support, double skin, double spacing, int dimensions);
+    Neighbourhood(double support, double skin, double spacing, int dimensions, Images images = {});
 
     /// Without this saving, to measure what it is worth: momentum where nothing moves, or lists anew everywhere.
     void compute_everywhere();

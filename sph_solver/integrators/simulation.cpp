@@ -20,6 +20,17 @@ FlowParameters parameters_of(const Scene& scene, bool has_flow)
     return parameters;
 }
 
+double support_of(const Scene& scene, const FlowParameters& parameters)
+{
+    return QuinticSpline(parameters.smoothing_length, scene.dimensions).support();
+}
+
+Images images_of(const Scene& scene, const FlowParameters& parameters)
+{
+    const double skin = scene.definition.numerics.skin * scene.spacing;
+    return {scene.definition.domain, scene.dimensions, scene.spacing, support_of(scene, parameters) + skin, skin};
+}
+
 } // namespace
 
 Simulation::Simulation(Scene scene)
@@ -30,8 +41,8 @@ Simulation::Simulation(Scene scene)
                                          scene_.definition.requires_physics("recoil"))),
       parameters_(parameters_of(scene_, has_flow_)),
       limits_(has_flow_ ? derive_time_step_limits(scene_, parameters_) : TimeStepLimits{}),
-      neighbourhood_(QuinticSpline(parameters_.smoothing_length, scene_.dimensions).support(),
-                     scene_.definition.numerics.skin * scene_.spacing, scene_.spacing, scene_.dimensions)
+      neighbourhood_(support_of(scene_, parameters_), scene_.definition.numerics.skin * scene_.spacing, scene_.spacing,
+                     scene_.dimensions, images_of(scene_, parameters_))
 {
     const std::string& saving = scene_.definition.numerics.without_saving;
     if (saving == "moving_momentum") neighbourhood_.compute_everywhere();
@@ -52,7 +63,8 @@ Simulation::Simulation(Scene scene)
     bool open = false;
     const auto reach = [&](std::size_t side) {
         const auto& boundary = scene_.definition.domain.boundaries[side];
-        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
+        const bool stops = !boundary || boundary->kind == BoundaryKind::periodic ||
+                           boundary->kind == BoundaryKind::symmetry || (walled && boundary->kind == BoundaryKind::wall);
         open = open || !stops;
         return stops ? no_limit : scene_.spacing;
     };
@@ -62,7 +74,9 @@ Simulation::Simulation(Scene scene)
     upper_ = {upper[0] + reach(1), upper[1] + reach(3), upper[2] + reach(5)};
     const auto wall = [&](std::size_t side) {
         const auto& boundary = scene_.definition.domain.boundaries[side];
-        return walled && boundary && boundary->kind == BoundaryKind::wall ? 0.1 * scene_.spacing : -no_limit;
+        const bool holds =
+            boundary && ((walled && boundary->kind == BoundaryKind::wall) || boundary->kind == BoundaryKind::symmetry);
+        return holds ? 0.1 * scene_.spacing : -no_limit;
     };
     wall_lower_ = {lower[0] + wall(0), lower[1] + wall(2), lower[2] + wall(4)};
     wall_upper_ = {upper[0] - wall(1), upper[1] - wall(3), upper[2] - wall(5)};
@@ -148,8 +162,8 @@ bool Simulation::outside(const Vector& p) const
     return p.x < lower_.x || p.x > upper_.x || p.y < lower_.y || p.y > upper_.y || p.z < lower_.z || p.z > upper_.z;
 }
 
-/// A wall's extrapolated pressure repels liquid, but not a single particle that creeps along it at no pressure at all:
-/// such a one is stopped a tenth of a spacing before the wall.
+/// A wall's extrapolated pressure (or a mirror's image) repels liquid, but not a single particle that creeps along it
+/// at no pressure at all: such a one is stopped a tenth of a spacing before the wall.
 void Simulation::hold_before_walls()
 {
     Particles& particles = *scene_.particles;

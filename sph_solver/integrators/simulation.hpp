@@ -84,7 +84,7 @@ private:
     CarmanKozeny mushy_drag_;
     const ScalarField* liquid_fraction_ = nullptr;
     ScalarField* escaped_ = nullptr;     ///< only where a side of the domain is open to what flies
-    Vector wall_lower_{}, wall_upper_{}; ///< liquid stays between these, m; infinite where there is no wall
+    Vector wall_lower_{}, wall_upper_{}; ///< liquid stays between these, m; infinite where neither wall nor mirror is
     Vector lower_{}, upper_{};           ///< beyond these a particle has left, m
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
     std::string last_binding_;

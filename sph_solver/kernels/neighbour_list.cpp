@@ -77,9 +77,10 @@ void append_runs(std::vector<Run>& list, std::size_t begin, Index first, unsigne
 
 } // namespace
 
-NeighbourList::NeighbourList(double support, double skin, double spacing, int dimensions)
+NeighbourList::NeighbourList(double support, double skin, double spacing, int dimensions, Images images)
     : support_(support), skin_(skin),
-      column_width_(spacing * (dimensions == 2 ? std::sqrt(double(lane_count)) : std::cbrt(double(lane_count))))
+      column_width_(spacing * (dimensions == 2 ? std::sqrt(double(lane_count)) : std::cbrt(double(lane_count)))),
+      images_(std::move(images))
 {}
 
 Index NeighbourList::column_x(double x) const
@@ -93,6 +94,9 @@ Index NeighbourList::column_y(double y) const
 
 void NeighbourList::build(Particles& particles)
 {
+    if (images_.any())
+        for (Index i = 0; i < particles.count(); ++i)
+            particles.position.set(i, images_.wrapped(particles.position[i]));
     sort_into_columns(particles);
     find_neighbours(particles);
     built_x_ = particles.position.x;
@@ -187,6 +191,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
     ranges_.resize(clusters_.size());
     const Index chunk_count = (count + clusters_per_chunk - 1) / clusters_per_chunk;
     chunks_.resize(static_cast<std::size_t>(chunk_count));
+    if (images_.any()) image_runs_.assign(clusters_.size(), {});
 
 #pragma omp parallel
     {
@@ -201,6 +206,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
             for (Index c = chunk * clusters_per_chunk; c < end; ++c) {
                 const std::size_t begin = found.size();
                 list_cluster(particles, c, found);
+                list_images(particles, c);
                 const std::span<const Run> runs{found.data() + begin, found.size() - begin};
                 ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(runs.size()),
                                                         neighbours_in(runs)};
@@ -282,6 +288,45 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
     });
 }
 
+NeighbourList::Box NeighbourList::image_of(const Box& box, const Image& image)
+{
+    const Vector a = image.place(box.lower), b = image.place(box.upper);
+    return {least(a, b), most(a, b)};
+}
+
+/// Particles whose images are near a cluster. Few clusters have any: they are found by boxes, then one by one.
+void NeighbourList::list_images(const Particles& particles, Index c)
+{
+    if (!images_.any()) return;
+    const double reach = support_ + skin_, reach_squared = reach * reach * (1.0 + 1e-12);
+    const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
+    const Box& box = boxes_[static_cast<std::size_t>(c)];
+    auto& found = image_runs_[static_cast<std::size_t>(c)];
+    found.clear();
+    for (std::size_t k = 0; k < images_.count(); ++k) {
+        const Image& image = images_[k];
+        // What sees an image of d has its own image near d, by the image that undoes the first.
+        const Box seen_from = image_of(box, image.inverse());
+        for_each_cluster_near(seen_from, [&](Index d) {
+            const Cluster& near = clusters_[static_cast<std::size_t>(d)];
+            for (Index j = near.first; j < near.first + near.count; ++j) {
+                const Vector place = image.place(particles.position[j]);
+                bool reached = false;
+                for (Index i = cluster.first; i < cluster.first + cluster.count && !reached; ++i) {
+                    const Vector offset = particles.position[i] - place;
+                    reached = dot(offset, offset) < reach_squared;
+                }
+                if (!reached) continue;
+                if (!found.empty() && found.back().image == static_cast<Index>(k) &&
+                    found.back().first + found.back().count == j)
+                    ++found.back().count;
+                else
+                    found.push_back({j, 1, static_cast<Index>(k)});
+            }
+        });
+    }
+}
+
 bool NeighbourList::outdated(const Particles& particles, std::span<const Index> moving) const
 {
     if (clusters_.empty()) return true;
@@ -324,9 +369,13 @@ void NeighbourList::spread_loose_over_columns()
 std::vector<Index> NeighbourList::clusters_near(std::span<const Index> moved) const
 {
     std::vector<unsigned char> near(clusters_.size(), 0);
-    for (const Index c : moved)
-        for_each_cluster_near(boxes_[static_cast<std::size_t>(c)],
-                              [&](Index d) { near[static_cast<std::size_t>(d)] = 1; });
+    const auto mark = [&](Index d) { near[static_cast<std::size_t>(d)] = 1; };
+    for (const Index c : moved) {
+        const Box& box = boxes_[static_cast<std::size_t>(c)];
+        for_each_cluster_near(box, mark);
+        for (std::size_t k = 0; k < images_.count(); ++k)
+            for_each_cluster_near(image_of(box, images_[k]), mark);
+    }
     std::vector<Index> found;
     for (std::size_t c = 0; c < near.size(); ++c)
         if (near[c]) found.push_back(static_cast<Index>(c));
@@ -344,6 +393,7 @@ bool NeighbourList::refresh(const Particles& particles, std::span<const Index> m
     for (const Index c : moved) {
         const Box& box = boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
         if (!std::isfinite(dot(box.upper - box.lower, box.upper - box.lower))) return false;
+        if (images_.must_wrap(box.lower, box.upper)) return false;
         lower_ = least(lower_, box.lower);
         upper_ = most(upper_, box.upper);
         if (!is_loose_[static_cast<std::size_t>(c)]) loose_.push_back(c);
@@ -361,6 +411,7 @@ bool NeighbourList::refresh(const Particles& particles, std::span<const Index> m
             const auto c = static_cast<std::size_t>(concerned[k]);
             own_lists_[c].clear();
             list_cluster(particles, concerned[k], own_lists_[c]);
+            list_images(particles, concerned[k]);
         }
     }
     double built = 0.0, now = 0.0;
@@ -392,6 +443,8 @@ std::size_t NeighbourList::bytes() const
     for (const auto* lists : {&chunks_, &own_lists_})
         for (const auto& list : *lists)
             total += list.capacity() * sizeof(Run);
+    for (const auto& list : image_runs_)
+        total += sizeof(list) + list.capacity() * sizeof(ImageRun);
     return total + 3 * built_x_.size() * sizeof(double);
 }
 

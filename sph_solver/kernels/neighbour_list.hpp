@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/images.hpp"
 #include "math/lanes.hpp"
 #include "particles/particles.hpp"
 
@@ -24,6 +25,14 @@ struct Run
     Index count;
 };
 
+/// The same of particles that are seen as an image, beyond a periodic or a symmetry side.
+struct ImageRun
+{
+    Index first;
+    Index count;
+    Index image; ///< of NeighbourList::images()
+};
+
 /// Orders particles in vertical columns and keeps, for each cluster, the particles within
 /// support + skin of any of them. A list stays valid while no particle has moved further than skin/2 since it was
 /// built: two particles that were further apart than support + skin then are still further apart than the support.
@@ -31,9 +40,10 @@ class NeighbourList
 {
 public:
     /// support and skin in m; dimensions 2 or 3; spacing is the particle spacing that sets the width of a column.
-    NeighbourList(double support, double skin, double spacing, int dimensions);
+    NeighbourList(double support, double skin, double spacing, int dimensions, Images images = {});
 
-    /// Sorts all particles into columns, cuts clusters and lists their neighbours.
+    /// Brings particles that have left through a periodic side back through the other one, sorts all into columns, cuts
+    /// clusters and lists their neighbours.
     void build(Particles& particles);
 
     /// Lists anew what the particles of the clusters `moved` concern, in place: order and clusters stay, and so do the
@@ -47,7 +57,7 @@ public:
     Index cluster_count() const { return static_cast<Index>(clusters_.size()); }
     const Cluster& cluster(Index c) const { return clusters_[static_cast<std::size_t>(c)]; }
     Index cluster_of(Index particle) const { return cluster_of_[static_cast<std::size_t>(particle)]; }
-    /// The particles near a cluster as runs, none of them twice; for_each_neighbour() goes through them.
+    /// The particles near a cluster as runs, none of them twice.
     std::span<const Run> runs(Index c) const
     {
         const auto& range = ranges_[static_cast<std::size_t>(c)];
@@ -55,12 +65,23 @@ public:
         return {chunks_[static_cast<std::size_t>(range.chunk)].data() + range.begin,
                 static_cast<std::size_t>(range.count)};
     }
+    const Images& images() const { return images_; }
+    /// What a cluster sees beyond periodic and symmetry sides; empty for nearly all, and for all where there are none.
+    std::span<const ImageRun> image_runs(Index c) const
+    {
+        if (image_runs_.empty()) return {};
+        return image_runs_[static_cast<std::size_t>(c)];
+    }
     /// Whether a pass may leave out clusters for which its terms have nothing to do.
     bool skips_idle() const { return skips_idle_; }
     void skip_nothing() { skips_idle_ = false; }
+    /// Every particle that is near as itself, then every one that is near as an image (again, if need be).
     template <class Visit> void for_each_neighbour(Index c, const Visit& visit) const
     {
         for (const Run& run : runs(c))
+            for (Index j = run.first; j < run.first + run.count; ++j)
+                visit(j);
+        for (const ImageRun& run : image_runs(c))
             for (Index j = run.first; j < run.first + run.count; ++j)
                 visit(j);
     }
@@ -90,14 +111,18 @@ private:
     void cut_clusters(const std::vector<Index>& first_of_column);
     void find_neighbours(const Particles& particles);
     void list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const;
+    void list_images(const Particles& particles, Index c);
     void spread_loose_over_columns();
     std::vector<Index> clusters_near(std::span<const Index> moved) const;
     template <class Visit> void for_each_cluster_near(const Box& box, const Visit& visit) const;
     Box box_of(const Particles& particles, Index c) const;
+    static Box image_of(const Box& box, const Image& image);
     Index column_x(double x) const;
     Index column_y(double y) const;
 
     double support_, skin_, column_width_;
+    Images images_;
+    std::vector<std::vector<ImageRun>> image_runs_; ///< by cluster; empty where there are no images at all
     Vector origin_{}, lower_{}, upper_{};
     Index columns_x_ = 0, columns_y_ = 0;
     std::vector<Index> first_cluster_of_column_, cluster_of_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernels/field_lanes.hpp"
+#include "kernels/mirrored.hpp"
 #include "kernels/neighbour_list.hpp"
 #include "kernels/places.hpp"
 #include "kernels/smoothing_kernel.hpp"
@@ -63,6 +64,27 @@ template <class... Terms> struct Neighbour
     std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
 };
 
+/// visit(j, image, offset) for every particle that a cluster sees beyond a periodic or symmetry side. Few clusters see
+/// any, so that this way is plain, and offsets are taken in double.
+template <class Visit>
+void for_each_image(const NeighbourList& list, std::span<const ImageRun> runs, const VectorField& position, Index first,
+                    const Visit& visit)
+{
+    const Vector origin = position[first];
+    VectorLanes here;
+    for (int lane = 0; lane < lane_count; ++lane) {
+        const Vector p = position[first + lane] - origin;
+        here.x.set(lane, p.x);
+        here.y.set(lane, p.y);
+        here.z.set(lane, p.z);
+    }
+    for (const ImageRun& run : runs) {
+        const Image& image = list.images()[static_cast<std::size_t>(run.image)];
+        for (Index j = run.first; j < run.first + run.count; ++j)
+            visit(j, image, here - broadcast(real(image.place(position[j]) - origin)));
+    }
+}
+
 /// Memory that passes share, one after another. Grows to the widest pass and stays.
 std::byte* pass_memory(std::size_t bytes);
 std::size_t pass_memory_bytes();
@@ -81,7 +103,8 @@ void release_pass_memory();
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
 ///
-/// Far may be left out: then add() gets the place j. The particle itself is among its neighbours (distance zero,
+/// Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
+/// symmetry side would have to turn). The particle itself is among its neighbours (distance zero,
 /// gradient zero, W = W(0)). Each sum is added up by one thread in the order of the list, so the result does not depend
 /// on the number of threads.
 ///
@@ -109,29 +132,40 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                 surroundings.centre_on(cluster.first, list.runs(c), place);
                 const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
                 std::tuple<typename Terms::Sum...> sums{};
-                surroundings.for_each_neighbour([&](Index j) {
-                    const Record& other = neighbour(j);
-                    Pair pair;
-                    pair.offset = surroundings.next_offset(other.place);
+                const auto meet = [&](const auto& far, const VectorLanes& offset) {
                     const bool counts = [&]<std::size_t... t>(std::index_sequence<t...>)
                     {
-                        return !(ignores(terms, std::get<t>(other.far)) && ...);
+                        return !(ignores(terms, std::get<t>(far)) && ...);
                     }
                     (std::index_sequence_for<Terms...>{});
                     if (!counts) return;
+                    Pair pair;
+                    pair.offset = offset;
                     pair.square = dot(pair.offset, pair.offset) + tiny;
                     const auto w = kernel.of_square(pair.square);
                     pair.kernel = w.value;
                     pair.gradient_over_r = w.gradient_over_r;
                     [&]<std::size_t... t>(std::index_sequence<t...>)
                     {
-                        ((ignores(terms, std::get<t>(other.far))
+                        ((ignores(terms, std::get<t>(far))
                               ? void()
-                              : terms.add(std::get<t>(near), std::get<t>(other.far), pair, std::get<t>(sums))),
+                              : terms.add(std::get<t>(near), std::get<t>(far), pair, std::get<t>(sums))),
                          ...);
                     }
                     (std::index_sequence_for<Terms...>{});
+                };
+                surroundings.for_each_neighbour([&](Index j) {
+                    const Record& other = neighbour(j);
+                    meet(other.far, surroundings.next_offset(other.place));
                 });
+                if (const auto images = list.image_runs(c); !images.empty())
+                    for_each_image(list, images, particles.position, cluster.first,
+                                   [&](Index j, const Image& image, const VectorLanes& offset) {
+                                       std::tuple<decltype(far_of(terms, j))...> far{far_of(terms, j)...};
+                                       if (image.mirrors())
+                                           std::apply([&](auto&... f) { ((f = mirrored(f, image.sign)), ...); }, far);
+                                       meet(far, offset);
+                                   });
                 [&]<std::size_t... t>(std::index_sequence<t...>)
                 {
                     (terms.store(cluster, std::get<t>(near), std::get<t>(sums)), ...);

@@ -79,6 +79,11 @@ struct VelocityDivergence
     {
         VectorLanes velocity;
     };
+    struct Far
+    {
+        Real volume; ///< 0 for what carries no heat
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         Lanes divergence{};
@@ -86,11 +91,10 @@ struct VelocityDivergence
 
     bool idle(const Cluster&) const { return false; }
     Near near(Index first) const { return {lanes(velocity, first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(conductivity[j] > 0.0 ? volume[j] : 0.0), real(velocity[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (conductivity[j] > 0.0)
-            sum.divergence -=
-                (volume[j] * pair.gradient_over_r) * dot(i.velocity - broadcast(velocity[j]), pair.offset);
+        sum.divergence -= (j.volume * pair.gradient_over_r) * dot(i.velocity - broadcast(j.velocity), pair.offset);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -26,6 +26,11 @@ struct ArtificialViscosity
         Lanes mass, density;
         VectorLanes velocity;
     };
+    struct Far
+    {
+        Real liquid, mass, density; ///< liquid: 1 or 0
+        VectorOf<Real> velocity;
+    };
     struct Sum
     {
         VectorLanes force{};
@@ -33,15 +38,16 @@ struct ArtificialViscosity
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(mass, first), lanes(density, first), lanes(velocity, first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const { return {real(mobility.weight[j]), real(mass[j]), real(density[j]), real(velocity[j])}; }
+    bool ignores(const Far& j) const { return j.liquid == 0; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (mobility.weight[j] == 0.0) return;
         const double h = smoothing_length;
-        const Lanes approach = minimum(dot(i.velocity - broadcast(velocity[j]), pair.offset), Lanes{});
+        const Lanes approach = minimum(dot(i.velocity - broadcast(j.velocity), pair.offset), Lanes{});
         const Lanes phi = h * approach / (pair.square + 0.01 * h * h);
         const Lanes viscous_pressure =
-            2.0 * (quadratic * phi * phi - linear * sound_speed * phi) / (i.density + density[j]);
-        sum.force -= (i.mass * mass[j] * viscous_pressure * pair.gradient_over_r) * pair.offset;
+            2.0 * (quadratic * phi * phi - linear * sound_speed * phi) / (i.density + j.density);
+        sum.force -= (i.mass * j.mass * viscous_pressure * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -42,6 +42,11 @@ struct WallInterface
     {
         VectorLanes position, wall_normal;
     };
+    struct Far
+    {
+        Real liquid, primary, delta, depth; ///< liquid, primary: 1 or 0
+        VectorOf<Real> colour_gradient, normal;
+    };
     struct Sum
     {
         Lanes weight{}, depth{}, primary{}, other{};
@@ -58,23 +63,29 @@ struct WallInterface
         return none_in(cluster, [&](Index i) { return stands_for_surface(i); });
     }
     Near near(Index first) const { return {lanes(particles.position, first), lanes(wall_normal, first)}; }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        if (mobility.weight[j] == 0.0) return;
-        (particles.material[static_cast<std::size_t>(j)] == 0 ? sum.primary : sum.other) += pair.kernel;
-        const double delta_j = surface.delta[j];
-        if (!(delta_j >= smallest_delta)) return;
+        return {
+            real(mobility.weight[j]),         particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
+            real(surface.delta[j]),           real(surface.depth[j]),
+            real(surface.colour_gradient[j]), real(surface.normal[j])};
+    }
+    bool ignores(const Far& j) const { return j.liquid == 0; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        (j.primary != 0 ? sum.primary : sum.other) += pair.kernel;
+        if (!(j.delta >= smallest_delta)) return;
         // Distance of j above the wall and the part of its colour gradient along the wall, lane by lane.
         const Lanes height = -dot(pair.offset, i.wall_normal);
-        const VectorLanes gradient = broadcast(surface.colour_gradient[j]);
+        const VectorLanes gradient = broadcast(j.colour_gradient);
         const VectorLanes along = gradient - dot(gradient, i.wall_normal) * i.wall_normal;
         const Lanes length = square_root(dot(along, along));
         const LaneMask takes_part = (length > Lanes(smallest_lateral)) & (height < Lanes(reach));
-        const Lanes weight = select(takes_part, delta_j * pair.kernel, 0.0);
+        const Lanes weight = select(takes_part, j.delta * pair.kernel, 0.0);
         const VectorLanes lateral = (1.0 / (length + 1e-30)) * along;
         const VectorLanes prescribed =
             Lanes(std::sin(contact_angle)) * lateral + Lanes(std::cos(contact_angle)) * i.wall_normal;
-        const VectorLanes foot = broadcast(surface.depth[j] * surface.normal[j]) - pair.offset;
+        const VectorLanes foot = broadcast(j.depth * j.normal) - pair.offset;
         sum.weight += weight;
         sum.depth += weight * dot(foot, prescribed);
         sum.lateral += weight * lateral;

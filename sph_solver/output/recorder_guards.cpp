@@ -38,11 +38,13 @@ GuardLimits Recorder::guard_limits() const
         limits.lowest_temperature = simulation_.heat()->lowest_possible_temperature() - 1.0;
         limits.highest_temperature = 20000.0;
     }
-    // A particle beyond a wall has gone through it; beyond any other side it has flown out and is retired.
+    // A particle beyond a wall or a mirror has gone through it; beyond a periodic side it is on its way back in, beyond
+    // an open one it has flown out and is retired.
     const bool walled = simulation_.particles().has("wall_normal");
     const auto margin = [&](std::size_t side) {
         const auto& boundary = definition.domain.boundaries[side];
-        const bool stops = !boundary || (walled && boundary->kind == BoundaryKind::wall);
+        const bool stops =
+            !boundary || boundary->kind == BoundaryKind::symmetry || (walled && boundary->kind == BoundaryKind::wall);
         return stops ? definition.spacing : std::numeric_limits<double>::infinity();
     };
     const auto& lower = definition.domain.lower;

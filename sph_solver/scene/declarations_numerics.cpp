@@ -18,7 +18,11 @@ Table openfoam_declaration()
          quantity("max_alpha_courant", "1", "greatest Courant number at the interface").above(0).at_most(1),
          plain("curvature_smoothing", Type::integer, "passes that smooth the fraction before its curvature is taken")
              .at_least(0)
-             .at_most(20)}};
+             .at_most(20),
+         choice("mesh", {"following", "static"},
+                "in scenes with beam, flow and melting: fine cells that follow the beam, or along all of its path"),
+         plain("ray_tracing", Type::boolean,
+               "light by rays that are reflected and absorbed by Fresnel's law; absent: first hit only")}};
 }
 
 } // namespace

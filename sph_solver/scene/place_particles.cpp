@@ -232,11 +232,6 @@ double Scene::particle_volume() const
 
 Scene place_particles(const Case& definition)
 {
-    for (std::size_t side = 0; side < 6; ++side)
-        if (const auto& boundary = definition.domain.boundaries[side];
-            boundary && (boundary->kind == BoundaryKind::symmetry || boundary->kind == BoundaryKind::periodic))
-            throw CaseError("domain.boundaries." + std::string(side_names[side]) +
-                            ": the SPH solver knows 'wall' and 'open'; choose one of them");
     if (definition.bodies.empty()) throw CaseError("body: the case has no body; add one [[body]]");
 
     Scene scene;

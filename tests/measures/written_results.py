@@ -6,7 +6,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
-FIELDS = ("volume", "fraction", "temperature", "velocity", "liquid_fraction", "peak_temperature")
+FIELDS = ("volume", "fraction", "temperature", "velocity", "pressure", "liquid_fraction", "peak_temperature")
 
 
 def write_elements(elements, path):

@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from reference_openfoam import case_writer, checkpoints, convert, foam_files, grid as grids, resolved_case
+from reference_openfoam import blocks, case_folder, case_writer, convert, foam_files, grid as grids, mesh_files, resolved_case
 from reference_openfoam.errors import Refused
 from reference_openfoam.volume_fractions import volume_fractions
 from tests.reference_openfoam import small_cases
@@ -80,7 +80,7 @@ def test_a_part_too_short_to_widen_stays_uniform():
 
 def test_every_internal_face_joins_neighbours_in_upper_triangular_order():
     grid = grids.Grid(np.linspace(0, 1, 4), np.linspace(0, 1, 3), np.linspace(0, 1, 5), False)
-    faces, owner, neighbour = grids._faces(grid)
+    faces, owner, neighbour = mesh_files.internal_faces(grid)
     assert len(faces) == 2*2*4 + 3*1*4 + 3*2*3
     assert np.all(owner < neighbour)
     assert np.all(np.diff(owner*1000 + neighbour) > 0)
@@ -93,7 +93,7 @@ def test_every_internal_face_joins_neighbours_in_upper_triangular_order():
 @pytest.mark.parametrize("side", resolved_case.SIDES)
 def test_faces_of_each_side_point_outward(side):
     grid = grids.Grid(np.linspace(0, 1, 4), np.linspace(0, 1, 3), np.linspace(0, 1, 5), False)
-    faces, points = grids._side_faces(grid, side), grid.points()
+    faces, points = mesh_files._side_faces(grid, side, grid.side_cells(side)), grid.points()
     a, b, c = (points[faces[:, column]] for column in (0, 1, 2))
     outward = points[faces].mean(axis=1) - grid.cell_centres()[grid.side_cells(side)]
     assert np.all(np.einsum("ij,ij->i", np.cross(b - a, c - b), outward) > 0)
@@ -167,13 +167,55 @@ def test_what_cannot_be_run_is_refused_in_one_line_that_names_the_key(tmp_path, 
 
 
 def test_a_damaged_checkpoint_is_refused_and_a_half_written_one_passed_over(tmp_path):
+    written = case_folder.CaseFolder(tmp_path, grids.Grid(*3*[np.linspace(0, 1, 2)], False), (1, 1, 1))
     for name, text in (("0.1", "good"), ("0.2", "good")):
         (tmp_path/name).mkdir()
         (tmp_path/name/"U").write_text(text)
         (tmp_path/name/"complete").write_text("4 U\n")
     (tmp_path/"0.3").mkdir()
     (tmp_path/"0.3"/"U").write_text("go")
-    assert checkpoints.newest(tmp_path)[0] == 0.2 and not (tmp_path/"0.3").exists()
+    assert written.newest() == (0.2, "0.2") and not (tmp_path/"0.3").exists()
     (tmp_path/"0.2"/"U").write_text("go")
     with pytest.raises(Refused, match="truncated or damaged"):
-        checkpoints.newest(tmp_path)
+        written.newest()
+
+
+def test_a_parallel_checkpoint_counts_only_when_every_rank_has_marked_it(tmp_path):
+    written = case_folder.CaseFolder(tmp_path, grids.Grid(*3*[np.linspace(0, 1, 3)], False), (2, 1, 1))
+    for rank, names in ((0, ("0.1", "0.2")), (1, ("0.1",))):
+        for name in ("0.1", "0.2"):
+            (tmp_path/f"processor{rank}"/name).mkdir(parents=True)
+        for name in names:
+            (tmp_path/f"processor{rank}"/name/"complete").write_text("")
+    assert written.newest() == (0.1, "0.1")
+    assert sorted(path.name for path in (tmp_path/"processor0").iterdir()) == ["0.1"]
+
+
+@pytest.mark.parametrize("counts", [(2, 1, 1), (1, 2, 1), (2, 3, 1), (1, 1, 4)])
+def test_blocks_cover_the_grid_once_and_meet_in_the_same_faces(counts):
+    grid = grids.Grid(np.linspace(0, 1, 6), np.linspace(0, 1, 8), np.linspace(0, 1, 5), False)
+    parts = blocks.divide(grid, counts)
+    values, covered = np.arange(grid.cell_count), np.zeros(grid.shape[::-1], dtype=int)
+    for rank, block in enumerate(parts):
+        covered[block.place] += 1
+        assert block.rank == rank and np.allclose(block.part(grid.cell_centres(), grid), block.cell_centres())
+        for side, other in block.neighbours:
+            opposite = side[:2] + ("min" if side.endswith("max") else "max")
+            assert (opposite, rank) in parts[other].neighbours
+            axis, mine, theirs = "xyz".index(side[0]), block.cell_centres(), parts[other].cell_centres()
+            mine, theirs = mine[block.side_cells(side)], theirs[parts[other].side_cells(opposite)]
+            assert np.allclose(np.delete(mine, axis, 1), np.delete(theirs, axis, 1))
+    assert np.all(covered == 1)
+    assert np.array_equal(np.sort(np.concatenate([block.part(values, grid) for block in parts])), values)
+
+
+def test_a_small_case_or_one_with_periodic_sides_is_not_divided(tmp_path):
+    case = read(small_cases.grain_on_plate(), tmp_path)
+    grid = grids.make_grid(case, 6e-5)
+    assert blocks.block_counts(case, grid, 2) in ((2, 1, 1), (1, 2, 1)) and blocks.block_counts(case, grid, 64) != (1, 1, 1)
+    assert np.prod(blocks.block_counts(case, grid, 64)) <= grid.cell_count/blocks.FEWEST_CELLS
+    periodic = {"kind": "periodic", "temperature": None}
+    sides = small_cases.boundaries(x_min=periodic, x_max=periodic, y_min=periodic, y_max=periodic)
+    data = small_cases.grain_on_plate()
+    data["domain"]["boundaries"] = sides
+    assert blocks.block_counts(read(data, tmp_path), grid, 2) == (1, 1, 1)

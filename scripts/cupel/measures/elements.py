@@ -18,7 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridRead
 
 from .registry import MeasureError
 
-OPTIONAL_FIELDS = ("temperature", "velocity", "liquid_fraction", "peak_temperature")
+OPTIONAL_FIELDS = ("temperature", "velocity", "pressure", "liquid_fraction", "peak_temperature")
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Elements:
     """Particles or cells of one instant, SI units; n elements.
 
     position (n, 3) m, volume (n) m^3, fraction (n) 0..1, time s; optional, None where the snapshot has none:
-    temperature (n) K, velocity (n, 3) m/s, liquid_fraction (n) 0..1, peak_temperature (n) K,
+    temperature (n) K, velocity (n, 3) m/s, pressure (n) Pa, liquid_fraction (n) 0..1, peak_temperature (n) K,
     extent (n, 3) m: edges of the box around a cell (None: particles, which have no shape).
     source: the file, for messages.
     """
@@ -37,6 +37,7 @@ class Elements:
     time: float = 0.0
     temperature: np.ndarray | None = None
     velocity: np.ndarray | None = None
+    pressure: np.ndarray | None = None
     liquid_fraction: np.ndarray | None = None
     peak_temperature: np.ndarray | None = None
     extent: np.ndarray | None = None

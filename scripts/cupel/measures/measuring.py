@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,14 +16,16 @@ from .elements import Series, read_series
 from .registry import Measure, MeasureError, Reading, find_measure
 from .snapshot import Snapshot
 
+SAME_REFERENCE = 1e-3   # relative difference of two statements of an exact reference that is only rounding
+
 
 def measure(result_folder: Path | str, resolved_case: dict) -> list[dict]:
     """The measures that the case names, in its order, each judged against its reference where it has one.
 
     result_folder: with fields/fields.pvd and, for ledgers, run.json; measures.csv (a row a snapshot) is written there.
     A measure of snapshots is the mean over those in `between` (the last one if not given) with the standard deviation
-    as uncertainty, unless it has a way of its own. References of kind "solver" without a value stay open. A reference of kind "exact" without
-    a value is computed where the measure knows how.
+    as uncertainty, unless it has a way of its own. References of kind "solver" without a value stay open. A reference of kind "exact" or
+    "tabulated" without a value is computed where the measure knows how; where the case file gives an exact one that differs, a note says so.
     Errors: MeasureError, one line, for unknown measures and for snapshots or ledgers that are missing or incomplete.
     """
     folder, requests = Path(result_folder), resolved_case.get("measures") or []
@@ -73,7 +76,9 @@ def summary(readings: list[Reading]) -> Reading:
     if not values:
         return Reading(None, note="; ".join(parts))
     spread = float(np.std(values, ddof=1)) if len(values) > 1 else readings[0].uncertainty
-    return Reading(float(np.mean(values)), uncertainty=spread, note="; ".join(parts))
+    expected = [reading.expected for reading in readings if reading.value is not None and reading.expected is not None]
+    return Reading(float(np.mean(values)), uncertainty=spread, note="; ".join(parts),
+                   expected=float(np.mean(expected)) if len(expected) == len(values) else None)
 
 
 def _no_snapshot(request: dict) -> Reading:
@@ -109,11 +114,15 @@ def _read_all(series: Series, case: dict, requests: list[dict], measures: dict[s
 def _judged(request: dict, chosen: Measure, reading: Reading, case: dict) -> dict:
     reference = request.get("reference") or {}
     kind, expected = reference.get("kind"), reference.get("value")
-    if kind == "exact" and expected is None:
-        if chosen.exact is None:
+    if kind in ("exact", "tabulated") and expected is None:
+        expected = reading.expected
+        if expected is None and chosen.exact is None:
             raise MeasureError(f"resolved case: measure '{chosen.name}' has no exact reference of its own; "
                                "give its value in the case file")
-        expected = chosen.exact(case)
+        if expected is None:
+            expected = chosen.exact(case)
+    elif kind == "exact":
+        reading = replace(reading, note=_and(reading.note, _disagreement(chosen, reading, expected, case)))
     row = {
         "name": chosen.name, "value": _number(reading.value), "unit": chosen.unit,
         "uncertainty": _number(reading.uncertainty), "reference": _number(expected), "reference_kind": kind,
@@ -126,6 +135,21 @@ def _judged(request: dict, chosen: Measure, reading: Reading, case: dict) -> dic
     if row["metric"] == "relative" and row["reference"] == 0.0:
         raise MeasureError(f"resolved case: measure '{chosen.name}' has a reference of 0, which needs metric 'absolute'")
     return judge(row, is_reference=kind == "solver")
+
+
+def _disagreement(chosen: Measure, reading: Reading, given: float, case: dict) -> str:
+    """What to say where an exact reference in the case file is not the one that the measure itself computes."""
+    try:
+        computed = reading.expected if reading.expected is not None else chosen.exact(case) if chosen.exact else None
+    except MeasureError:
+        return ""   # the measure knows no exact value for such a case; its file gives one
+    if computed is None or math.isclose(given, computed, rel_tol=SAME_REFERENCE, abs_tol=1e-12):
+        return ""
+    return f"the case file's exact reference is {given:.6g}, computed from the case it is {computed:.6g}"
+
+
+def _and(*notes: str) -> str:
+    return "; ".join(note for note in notes if note)
 
 
 def _number(value) -> float | None:

@@ -28,6 +28,7 @@ class Reading:
     beside: further columns of measures.csv, keyed by a name that carries its unit.
     note: one sentence for the reader of the result, empty where there is nothing to say.
     kept: what the measure's own `combine` needs of this snapshot.
+    expected: the exact or tabulated reference at the time of the reading, where it changes with time.
     """
 
     value: float | None
@@ -35,6 +36,7 @@ class Reading:
     beside: dict[str, float | None] = field(default_factory=dict)
     note: str = ""
     kept: Any = None
+    expected: float | None = None
 
 
 @dataclass(frozen=True)
