@@ -61,11 +61,6 @@ def write_field(path: Path, kind: str, dimensions: str, internal: str, boundary:
     write_field_with(path, kind, dimensions, internal, dictionary({"boundaryField": boundary}))
 
 
-def vector_list(values: np.ndarray) -> str:
-    """(n, 3) as `nonuniform List<vector> n(...)`."""
-    return f"nonuniform List<vector> {len(values)}\n(\n" + "\n".join("(%r %r %r)" % tuple(row) for row in values.tolist()) + "\n)"
-
-
 def write_field_with(path: Path, kind: str, dimensions: str, internal: str, boundary_section: str) -> None:
     """Write a field file whose boundaryField is there as text."""
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -90,9 +90,10 @@ def volume_fractions(case: ResolvedCase, grid: Grid) -> np.ndarray:
 
 
 def _sampled(case: ResolvedCase, grid: Grid, bodies: list, near: dict, cells: np.ndarray, row_of: np.ndarray) -> np.ndarray:
-    """Share of some cells (m,) in the primary material, by their sample points; row_of: place of a cell among them, or -1."""
+    """Share of some cells (m,) that lies in the primary material; row_of: place of a cell among them, or -1."""
     samples = _sample_points(grid, cells)
-    widths = np.column_stack([np.diff(line)[index[cells]] for line, index in zip((grid.x, grid.y, grid.z), grid.cell_indices())])/SAMPLES
+    lines = (grid.x, grid.y, grid.z)
+    widths = np.column_stack([np.diff(line)[index[cells]] for line, index in zip(lines, grid.cell_indices())])/SAMPLES
     inside = np.zeros(samples.shape[:2])
     for body, spheres in bodies:
         fills = body["material"] == case.primary_name

@@ -1,6 +1,8 @@
-#include "momentum_equation.hpp"
+#include <cmath>
+
 #include "capillary_force.hpp"
 #include "marangoni_stress.hpp"
+#include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
 
@@ -66,11 +68,12 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
 
         fvScalarMatrix pressure(fvm::laplacian(rAUf, p_rgh) == fvc::div(predicted_flux));
         pressure.setReference(flow.reference_cell, flow.reference_pressure);
-        pressure.solve(mesh.solver(p_rgh.select(corrector == correctors)));
+        const scalar residual = pressure.solve(mesh.solver(p_rgh.select(corrector == correctors))).initialResidual();
 
         phi = predicted_flux - pressure.flux();
         U = HbyA + rAU * fvc::reconstruct((force_flux - pressure.flux()) / rAUf);
         U.correctBoundaryConditions();
+        if (!std::isfinite(residual)) break; // the guards say where
     }
 }
 } // namespace cupel

@@ -92,7 +92,7 @@ def test_openfoam_writer_takes_it(member, tmp_path):
         grid = make_grid(case, top_of_bodies(case))
         assert grid.cell_count > 100
         if level == "coarse" and grid.cell_count < MOST_CELLS:
-            case_writer.write_case(case, tmp_path / level, grid)
+            case_writer.write_case(case, tmp_path / level, grid=grid)
             assert (tmp_path / level / "0" / "fraction").stat().st_size > 1000
 
 
