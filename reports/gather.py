@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cupel.comparison import Row, fill_solver_references, power_trend_rows, rows_at
+from cupel.comparison import Row, fill_solver_references, power_trend_rows
+from cupel.judging import judged_at
 from cupel.layout import CANONICAL_CASES, SOLVERS, ResultPlace, places
 from cupel.measures.elements import Series, read_series
 from cupel.measures.registry import MeasureError
@@ -19,6 +20,7 @@ class Run:
     result: dict | None
     rows: list[Row]
     series: Series | None = None
+    kept: str = ""   # of a kept result that stands in for one that has not been run: its commit and age
 
     @property
     def solver(self) -> str:
@@ -75,8 +77,8 @@ def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case
         case = Case(name)
         for solver in (*SOLVERS, *others):
             place = ResultPlace(root, name, solver, variant)
-            result, rows = rows_at(place)
-            case.runs.append(Run(place, result, rows, snapshots(place, result)))
+            judged = judged_at(place)
+            case.runs.append(Run(place, judged.result, judged.rows, snapshots(place, judged.result), judged.kept))
         cases.append(case)
     results = [run.result for case in cases for run in case.runs if run.result]
     return cases, power_trend_rows(results)
