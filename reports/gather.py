@@ -5,11 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from cupel.cases import case_names, find_case, members
 from cupel.comparison import Row, fill_solver_references, power_trend_rows
+from cupel.errors import CupelError
 from cupel.judging import judged_at
 from cupel.layout import CANONICAL_CASES, SOLVERS, ResultPlace, places
 from cupel.measures.elements import Series, read_series
 from cupel.measures.registry import MeasureError
+from cupel.results import kept_cases
+
+VERIFICATION_TIERS = ("v0", "v1")
 
 
 @dataclass
@@ -37,6 +42,11 @@ class Case:
 
     name: str
     runs: list[Run] = field(default_factory=list)
+    known_tier: str | None = None   # of the case file, where there is no result that says it
+
+    @property
+    def tier(self) -> str | None:
+        return self.settings.get("tier") or self.known_tier
 
     @property
     def settings(self) -> dict:
@@ -65,16 +75,21 @@ class Case:
 def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case], list[Row]]:
     """Cases and the rows that compare several of them.
 
-    `names` None: the canonical cases, and every other that has a result of this variant.
+    `names` None: the canonical cases, every other that has a result of this variant or a kept one, and what a verification
+    tier has besides, if anything of that tier is there.
     """
     found = places(root, variants=[variant])
+    tiers: dict[str, str | None] = {}
     if names is None:
-        names = [*CANONICAL_CASES, *sorted({place.case for place in found} - set(CANONICAL_CASES))]
+        there = {place.case for place in found} | kept_cases(variant)
+        tiers = tiers_of_cases(variant)
+        begun = {tiers.get(name) for name in there} & set(VERIFICATION_TIERS)
+        names = [*CANONICAL_CASES, *(name for name, tier in tiers.items() if tier in begun), *sorted(there)]
     cases = []
-    for name in names:
+    for name in dict.fromkeys(names):
         fill_solver_references(root, name, variant)
         others = sorted({place.solver for place in found if place.case == name} - set(SOLVERS))
-        case = Case(name)
+        case = Case(name, known_tier=tiers.get(name))
         for solver in (*SOLVERS, *others):
             place = ResultPlace(root, name, solver, variant)
             judged = judged_at(place)
@@ -82,6 +97,14 @@ def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case
         cases.append(case)
     results = [run.result for case in cases for run in case.runs if run.result]
     return cases, power_trend_rows(results)
+
+
+def tiers_of_cases(level: str) -> dict[str, str | None]:
+    """Tier of every case of the suite that has `level`, in order of the case folders; empty where the build is missing."""
+    try:
+        return {member.name: member.tier for name in case_names() for member in members(find_case(name)) if level in member.levels}
+    except CupelError:
+        return {}
 
 
 def snapshots(place: ResultPlace, result: dict | None) -> Series | None:

@@ -120,6 +120,16 @@ def read_kept(case: str, solver: str, level: str) -> dict | None:
     return result
 
 
+def kept_cases(level: str) -> set[str]:
+    """Names of the cases that have a kept result at `level`."""
+    found = set()
+    for path in CASES.glob(f"*/kept/**/{level}/result.json"):
+        owner = path.relative_to(CASES).parts[0]
+        variation = path.parent.parent.parent.relative_to(CASES / owner / "kept").parts
+        found.add("_".join((owner, *variation)))
+    return found
+
+
 def move_aside(place: ResultPlace) -> None:
     """Moves an existing result out of the way, so that nothing of it can be taken for the new one.
 
