@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cupel.cases import case_names, find_case, members
+from cupel.cases import Member, case_names, find_case, members
 from cupel.comparison import Row, fill_solver_references, power_trend_rows
 from cupel.errors import CupelError
 from cupel.judging import judged_at
@@ -42,11 +42,17 @@ class Case:
 
     name: str
     runs: list[Run] = field(default_factory=list)
-    known_tier: str | None = None   # of the case file, where there is no result that says it
+    member: Member | None = None   # what the case file says, where there may be no result that says it
 
     @property
     def tier(self) -> str | None:
-        return self.settings.get("tier") or self.known_tier
+        return self.settings.get("tier") or (self.member.tier if self.member else None)
+
+    @property
+    def family(self) -> str:
+        """Name of the case file's folder: of all variations of a case the same."""
+        variation = self.settings.get("variation") or (self.member.variation if self.member else None)
+        return self.name.removesuffix(f"_{variation}") if variation else self.name
 
     @property
     def settings(self) -> dict:
@@ -55,7 +61,7 @@ class Case:
 
     @property
     def title(self) -> str:
-        return self.settings.get("title", self.name)
+        return self.settings.get("title") or (self.member.title if self.member else self.name)
 
     @property
     def shown(self) -> list[Run]:
@@ -79,17 +85,17 @@ def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case
     tier has besides, if anything of that tier is there.
     """
     found = places(root, variants=[variant])
-    tiers: dict[str, str | None] = {}
+    known: dict[str, Member] = {}
     if names is None:
         there = {place.case for place in found} | kept_cases(variant)
-        tiers = tiers_of_cases(variant)
-        begun = {tiers.get(name) for name in there} & set(VERIFICATION_TIERS)
-        names = [*CANONICAL_CASES, *(name for name, tier in tiers.items() if tier in begun), *sorted(there)]
+        known = known_cases(variant)
+        begun = {known[name].tier for name in there & set(known)} & set(VERIFICATION_TIERS)
+        names = [*CANONICAL_CASES, *(name for name, member in known.items() if member.tier in begun), *sorted(there)]
     cases = []
     for name in dict.fromkeys(names):
         fill_solver_references(root, name, variant)
         others = sorted({place.solver for place in found if place.case == name} - set(SOLVERS))
-        case = Case(name, known_tier=tiers.get(name))
+        case = Case(name, member=known.get(name))
         for solver in (*SOLVERS, *others):
             place = ResultPlace(root, name, solver, variant)
             judged = judged_at(place)
@@ -99,10 +105,11 @@ def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case
     return cases, power_trend_rows(results)
 
 
-def tiers_of_cases(level: str) -> dict[str, str | None]:
-    """Tier of every case of the suite that has `level`, in order of the case folders; empty where the build is missing."""
+def known_cases(level: str) -> dict[str, Member]:
+    """Every case of the suite that has `level`, by name, in order of the case folders; empty where the build is missing."""
     try:
-        return {member.name: member.tier for name in case_names() for member in members(find_case(name)) if level in member.levels}
+        return {member.name: member
+                for name in case_names() for member in members(find_case(name)) if level in member.levels}
     except CupelError:
         return {}
 
@@ -111,7 +118,7 @@ def snapshots(place: ResultPlace, result: dict | None) -> Series | None:
     """The snapshots of a result; None if it has none that can be read."""
     if result is None or not (place.folder / "fields" / "fields.pvd").exists():
         return None
-    resolved = result["settings"].get("surrounding", {}).get("resolved", True)
+    resolved = (result["settings"].get("surrounding") or {}).get("resolved", "surrounding" not in result["settings"])
     try:
         return read_series(place.folder, fraction_when_absent=None if resolved else 1.0)
     except MeasureError:

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from cupel.convergence import Convergence, Study, converge, write_convergence
+from cupel.convergence import Study, converge, write_convergence
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 
@@ -22,11 +22,12 @@ MARKERS = "os^Dv*"
 def orders_block(root: Path, cases: list[Case]) -> dict:
     """Pictures, rows and agreements of all cases that have three levels; also writes results/CASE/convergence.json."""
     found = [converge(root, case.name) for case in cases]
+    families = {case.name: case.family for case in cases}
     for each in found:
         write_convergence(root, each)
     studies = [study for each in found for study in each.studies]
     return {
-        "picture": order_picture(found), "rows": [order_row(study) for study in studies],
+        "picture": order_picture(studies, families), "rows": [order_row(study) for study in studies],
         "agreements": [agreement_row(one) for each in found for one in each.agreements],
         "short": sorted({each.case for each in found if not each.studies}),
     }
@@ -71,11 +72,13 @@ def drawn(study: Study) -> list[tuple[float, float]]:
     return [(point.spacing, abs(point.error)) for point in study.points if point.error]
 
 
-def order_picture(found: list[Convergence]) -> Picture:
-    """A panel a case: |error| against spacing, both logarithmic, colour by solver, marker by quantity; slopes 1 and 2 in grey."""
+def order_picture(studies: list[Study], families: dict[str, str]) -> Picture:
+    """A panel for each case with its variations: |error| against spacing, both logarithmic, colour by solver, marker by quantity;
+    slopes 1 and 2 in grey."""
     picture = Picture("orders", "", "Errors against spacing for every case with at least three levels")
-    panels = [(each.case, [study for study in each.studies if drawn(study)]) for each in found]
-    panels = [(case, studies) for case, studies in panels if studies]
+    shown = [study for study in studies if drawn(study)]
+    panels = [(family, [study for study in shown if families[study.case] == family])
+              for family in dict.fromkeys(families[study.case] for study in shown)]
     if not panels:
         picture.missing = "no case has an exact error at three levels yet"
         return picture
@@ -86,31 +89,31 @@ def order_picture(found: list[Convergence]) -> Picture:
         _panel(axes, *panel)
     for axes in grid.flat[len(panels):]:
         axes.axis("off")
-    solvers = list(dict.fromkeys(study.solver for _, studies in panels for study in studies))
+    solvers = list(dict.fromkeys(study.solver for study in shown))
     handles = [Line2D([], [], color=solver_colour(solver), linewidth=1.6, label=solver_name(solver)) for solver in solvers]
     handles += [Line2D([], [], color="#9aa3ad", linestyle=":", label="order 1"), Line2D([], [], color="#9aa3ad", linestyle="--", label="order 2")]
     canvas.tight_layout(w_pad=1.5, h_pad=1.6)
     canvas.legend(handles=handles, ncol=len(handles), loc="lower left", bbox_to_anchor=(0.01, 1.0), borderaxespad=0.0)
     picture.image = encode(canvas)
     picture.caption = ("Magnitude of the error, relative or in the quantity's own unit as its tolerance is, against the spacing of elements. "
-                       "Colour: solver. Marker: quantity. Grey: first and second order.")
+                       "Colour: solver. Marker: quantity. A line for each variation. Grey: first and second order.")
     return picture
 
 
-def _panel(axes, case: str, studies: list[Study]) -> None:
+def _panel(axes, title: str, studies: list[Study]) -> None:
     names = list(dict.fromkeys(study.measure for study in studies))
     points = [point for study in studies for point in drawn(study)]
     factor, unit = scale_of("m", max(spacing for spacing, _ in points))
     for study in studies:
         spacing, error = np.array(drawn(study)).T
         axes.plot(factor * spacing, error, color=solver_colour(study.solver), marker=MARKERS[names.index(study.measure) % len(MARKERS)],
-                  markersize=4.5, linewidth=1.3)
+                  markersize=4.5, linewidth=1.2, alpha=0.85)
     low, high = (factor * pick(spacing for spacing, _ in points) for pick in (min, max))
     top = max(error for _, error in points)
     for order, style in ((1, ":"), (2, "--")):
         axes.plot([low, high], [top * (low / high)**order, top], color="#9aa3ad", linestyle=style, linewidth=1.0, zorder=0)
     ticks = sorted({float(f"{factor * spacing:.3g}") for spacing, _ in points})
-    axes.set(xscale="log", yscale="log", xlabel=f"spacing [{unit}]", title=case)
+    axes.set(xscale="log", yscale="log", xlabel=f"spacing [{unit}]", title=title)
     axes.set_xlim(low / 1.25, high * 1.25)
     least = min(error for _, error in points)
     decades = max(np.log10(top / least), 0.5)

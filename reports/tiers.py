@@ -38,12 +38,16 @@ def tier_blocks(cases: list[Case]) -> list[dict]:
 
 
 def _case_block(case: Case) -> dict:
+    """A case of a tier in print; one that no solver has run is a single line."""
+    if all(run.result is None and not (run.place.folder / "launch.json").exists() and run.rows[0].verdict == "missing" for run in case.runs):
+        names = ", ".join(solver_name(run.solver) for run in case.runs)
+        return {"name": case.name, "title": case.title, "spacing": "", "absent": f"not run yet in {names}"}
     runs = [{
         "solver": solver_name(run.solver), "colour": solver_colour(run.solver), "kept": run.kept,
         "rows": [present(row) | {"margin": margin_text(row)} for row in run.rows],
     } for run in case.runs]
     spacing = quantity(case.settings["spacing"], "m", digits=3) if case.settings else ""
-    return {"name": case.name, "title": case.title, "runs": runs, "spacing": spacing, "count": sum(len(run["rows"]) for run in runs)}
+    return {"name": case.name, "title": case.title, "absent": "", "runs": runs, "spacing": spacing, "count": sum(len(run["rows"]) for run in runs)}
 
 
 def _solver_line(cases: list[Case], solver: str) -> dict:
@@ -71,34 +75,30 @@ def margin_text(row) -> str:
 
 
 def margin_picture(tier: str, title: str, cases: list[Case]) -> Picture:
-    """Error over tolerance of every comparison, a line for each case and quantity, a point for each solver."""
+    """Error over tolerance of every comparison: a line for each quantity of a case with all its variations, a point for each solver
+    and variation."""
     picture = Picture(f"margins-{tier}", "", f"{title}: error over tolerance of every comparison, by case and solver")
-    lines = [(case, name) for case in cases
-             for name in dict.fromkeys(row.quantity for run in case.runs for row in run.rows if row.tolerance and "against kept" not in row.quantity)]
-    points = [(number, run.solver, margin(row), row) for number, (case, name) in enumerate(lines)
-              for run in case.runs for row in run.rows if row.quantity == name and row.tolerance]
-    if not any(value is not None for _, _, value, _ in points):
+    points = [(case.family, row.quantity, run.solver, row) for case in cases for run in case.runs for row in run.rows
+              if row.tolerance and row.reference_kind != "kept"]
+    if not any(margin(row) is not None for *_, row in points):
         picture.missing = "no comparison of this tier has an error yet"
         return picture
-    canvas, axes = pyplot.subplots(figsize=(10, 1.1 + 0.21 * len(lines)))
+    families = list(dict.fromkeys(case.family for case in cases))
+    lines = sorted(dict.fromkeys((family, name) for family, name, *_ in points), key=lambda line: families.index(line[0]))
+    variations = {family: len({case.name for case in cases if case.family == family}) for family, _ in lines}
+    solvers = list(dict.fromkeys(run.solver for case in cases for run in case.runs))
+    canvas, axes = pyplot.subplots(figsize=(10, 1.1 + 0.27 * len(lines)))
     axes.axvspan(LEAST / 2, 1.0, color="#eaf6ef", linewidth=0)
     axes.axvline(1.0, color="#146c43", linewidth=1.1)
-    for number, (case, _) in enumerate(lines):
-        if number and lines[number - 1][0] is not case:
+    for number, (family, _) in enumerate(lines):
+        if number and lines[number - 1][0] != family:
             axes.axhline(number - 0.5, color="#cdd4db", linewidth=0.7)
-    solvers = list(dict.fromkeys(run.solver for case in cases for run in case.runs))
-    for number, solver, value, row in points:
-        height = number + 0.16 * (solvers.index(solver) - (len(solvers) - 1) / 2)
-        colour = solver_colour(solver)
-        if value is None:
-            axes.plot(MOST * 1.25, height, marker="x", color=colour, markersize=4.5, linestyle="none")
-        else:
-            shown = min(max(value, LEAST), MOST)
-            marker = "<" if value < LEAST else ">" if value > MOST else "o" if row.verdict == "pass" else "D"
-            axes.plot(shown, height, marker=marker, markersize=5, linestyle="none", markerfacecolor=colour if row.verdict == "pass" else "white",
-                      markeredgecolor=colour, markeredgewidth=1.4)
+    for family, name, solver, row in points:
+        height = lines.index((family, name)) + 0.26 * (solvers.index(solver) - (len(solvers) - 1) / 2)
+        _mark(axes, row, height, solver_colour(solver))
     axes.set(xscale="log", xlim=(LEAST / 1.4, MOST * 1.7), ylim=(len(lines) - 0.4, -0.6), xlabel="|error| / tolerance")
-    axes.set_yticks(range(len(lines)), [f"{case.name} · {quantity_name(name)}" for case, name in lines], fontsize=7.5)
+    labels = [f"{family}{f' ({variations[family]})' if variations[family] > 1 else ''} · {quantity_name(name)}" for family, name in lines]
+    axes.set_yticks(range(len(lines)), labels, fontsize=7.5)
     axes.set_xticks([1e-3, 1e-2, 1e-1, 1, 10, 100], ["0.001", "0.01", "0.1", "1", "10", "100"])
     axes.tick_params(axis="y", length=0)
     axes.grid(axis="x")
@@ -108,6 +108,17 @@ def margin_picture(tier: str, title: str, cases: list[Case]) -> Picture:
                 Line2D([], [], marker="x", linestyle="none", color="#6b7280", label="could not be measured")]
     axes.legend(handles=handles, ncol=len(handles), loc="lower left", bbox_to_anchor=(0, 1.0), borderaxespad=0.2, handletextpad=0.3)
     picture.image = encode(canvas)
-    picture.caption = ("Error over tolerance. Left of the line (tinted) passes. Filled points pass, open diamonds fail; "
-                       "arrows at the edges lie beyond the axis.")
+    picture.caption = ("Error over tolerance, a point for each solver and variation (their number in brackets). Left of the line (tinted) passes. "
+                       "Filled points pass, open diamonds fail; arrows at the edges lie beyond the axis.")
     return picture
+
+
+def _mark(axes, row, height: float, colour: str) -> None:
+    """One comparison of the figure."""
+    value = margin(row)
+    if value is None:
+        axes.plot(MOST * 1.25, height, marker="x", color=colour, markersize=4.5, linestyle="none")
+        return
+    marker = "<" if value < LEAST else ">" if value > MOST else "o" if row.verdict == "pass" else "D"
+    axes.plot(min(max(value, LEAST), MOST), height, marker=marker, markersize=4.5, linestyle="none", markeredgecolor=colour,
+              markerfacecolor=colour if row.verdict == "pass" else "white", markeredgewidth=1.3, alpha=0.9)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 import subprocess
+from pathlib import Path
 
 import pytest
 from cupel import results as results_module
+from cupel.cases import Member as CaseMember
 from cupel.convergence import converge
 from cupel.kept import keep
 from cupel.results import kept_cases, read_result, write_result
@@ -29,6 +31,11 @@ def tiered(root, case, solver, level, spacing, value, tier="v0", **more):
     return place
 
 
+def known_member(name, tier, variation=None):
+    """A case as the case reader knows it."""
+    return CaseMember(name, Path("case.toml"), variation, f"A case, {name}", ("coarse",), tier)
+
+
 @pytest.fixture
 def suite(tmp_path, monkeypatch):
     """Cases good (both solvers, three levels), bad (SPH only, far off) and table (tier v1); the case reader knows absent as well."""
@@ -42,8 +49,8 @@ def suite(tmp_path, monkeypatch):
         (cases / name).mkdir(parents=True)
         (cases / name / "case.toml").write_text("")
     monkeypatch.setattr(results_module, "CASES", cases)
-    known = {"good": "v0", "bad": "v0", "absent": "v0", "table": "v1"}
-    monkeypatch.setattr(gather_module, "tiers_of_cases", lambda level: known)
+    known = {name: known_member(name, tier) for name, tier in (("good", "v0"), ("bad", "v0"), ("absent", "v0"), ("table", "v1"))}
+    monkeypatch.setattr(gather_module, "known_cases", lambda level: known)
     return root
 
 
@@ -58,7 +65,7 @@ def test_each_tier_has_its_table_with_missing_cases_and_the_orders_follow(suite,
     outline = page_text(suite, browse)
     assert {"tier-v0", "tier-v1", "orders", "margins-v0", "tier-case-absent"} <= set(outline.identities)
     assert "tier V0: 2 of 6 comparisons pass, 1 fail, 3 missing" in outline.text     # bad in OpenFOAM and absent in both
-    assert re.search(r"absent SPH Run – – – – – missing not run yet OpenFOAM Run", outline.text)
+    assert "absent A case, absent missing not run yet in SPH, OpenFOAM" in outline.text
     assert re.search(r"good A case, good; spacing 40.0 μm SPH Melt-pool width .* \+2\.00 % ± 10 % 0\.20 pass", outline.text)
     assert re.search(r"SPH Melt-pool width 10 / 20 / 40 μm monotone 1\.00 1\.00", outline.text)
     assert "Do the solvers agree?" in outline.text
@@ -84,9 +91,14 @@ def test_a_kept_result_is_shown_as_kept_with_its_commit_and_links_that_lead_to_i
 
 
 def test_a_suite_of_which_nothing_has_run_does_not_fill_the_page_with_missing_cases(tmp_path, monkeypatch):
-    monkeypatch.setattr(gather_module, "tiers_of_cases", lambda level: {"good": "v0", "table": "v1"})
+    monkeypatch.setattr(gather_module, "known_cases", lambda level: {"good": known_member("good", "v0")})
     cases, _ = gather_module.gather(tmp_path, None, "coarse")
     assert not tier_blocks(cases)
+
+
+def test_variations_of_a_case_share_a_line_and_a_panel():
+    assert gather_module.Case("drop_la_12", member=known_member("drop_la_12", "v0", "la_12")).family == "drop"
+    assert gather_module.Case("drop").family == "drop"
 
 
 def test_margins_and_orders_in_print(suite):
