@@ -11,6 +11,7 @@ from .colours import solver_colour
 from .drawing import Picture, encode
 from .formatting import present, quantity, quantity_name, solver_name
 from .gather import Case
+from .histories import history_picture
 
 TIERS = {
     "v0": ("Exact solutions", "Cases with an exact solution, which the measures work out from the same case file."),
@@ -32,6 +33,7 @@ def tier_blocks(cases: list[Case]) -> list[dict]:
             "tier": tier, "title": title, "what": what, "cases": [_case_block(case) for case in own],
             "passed": verdicts["pass"], "failed": verdicts["fail"], "missing": verdicts["missing"],
             "judged": sum(verdicts.values()) - verdicts["none"], "figure": margin_picture(tier, title, own),
+            "histories": history_picture(tier, title, own),
             "solvers": [_solver_line(own, solver) for solver in dict.fromkeys(run.solver for case in own for run in case.runs)],
         })
     return blocks

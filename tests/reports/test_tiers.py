@@ -6,6 +6,7 @@ import re
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from cupel import results as results_module
 from cupel.cases import Member as CaseMember
@@ -13,6 +14,7 @@ from cupel.convergence import converge
 from cupel.kept import keep
 from cupel.results import kept_cases, read_result, write_result
 from reports import gather as gather_module
+from reports.histories import history_picture, read_table
 from reports.orders import order_row, orders_block
 from reports.tiers import margin_text, tier_blocks
 from tests.reports.test_page import Outline
@@ -114,3 +116,17 @@ def test_margins_and_orders_in_print(suite):
     assert orders_block(suite, cases)["picture"].image
 
 
+
+
+def test_histories_stand_beside_the_exact_ones(suite, tmp_path):
+    place = tiered(suite, "wave", "sph", "coarse", 4e-5, 1.0)
+    result = read_result(place)
+    result["measures"][0] |= {"name": "wave_error"}
+    write_result(place.folder, result)
+    (place.folder / "measures.csv").write_text("time_s,wave_error,wave_error_amplitude_m,wave_error_exact_amplitude_m\n"
+                                               + "".join(f"{0.1 * n},0.1,{1.0 - 0.1 * n},{'' if n == 2 else 1.0 - 0.09 * n}\n" for n in range(9)))
+    table = read_table(place.folder / "measures.csv")
+    assert np.isnan(table["wave_error_exact_amplitude_m"][2]) and table["wave_error_amplitude_m"][2] == pytest.approx(0.8)
+    cases, _ = gather_module.gather(suite, ["wave", "good"], "coarse")
+    assert history_picture("v0", "Exact", cases).image.startswith("data:image/png")
+    assert "no result" in history_picture("v0", "Exact", cases[1:]).missing
