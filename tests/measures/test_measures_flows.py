@@ -314,6 +314,14 @@ def test_a_wrong_pressure_or_tension_is_an_error_of_its_share():
     assert weak == pytest.approx(0.25 * right["surface_tension_N"] / right["recoil_N"], abs=0.012)
 
 
+def test_ringing_of_the_pressure_cancels_over_snapshots_and_a_lasting_imbalance_does_not():
+    chosen = find_measure("recoil_balance_error")
+    high, low, right = (chosen.read(recoil_snapshot("layers", 2, pressure_factor=factor)) for factor in (1.5, 0.5, 1.0))
+    assert chosen.combine([high, low]).value == pytest.approx(right.value, abs=1e-6) and min(high.value, low.value) > 0.05
+    assert chosen.combine([high, high]).value == pytest.approx(high.value)
+    assert chosen.combine([high, low]).uncertainty > 0.1
+
+
 def test_elements_keep_pressure_through_files(tmp_path):
     made = Elements(np.zeros((2, 3)), np.ones(2), np.ones(2), pressure=np.array([1.5, -2.0]))
     from cupel.measures import read_series

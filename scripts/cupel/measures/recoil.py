@@ -10,6 +10,7 @@ The balance of forces along z (exact/recoil.py), weighted with w(r) = cos^2(pi r
     T       on the surface density = 1/2, column by column of the resampling grid (fields.py)
     t       grad(z)/sqrt(1 + grad(z)^2), slope of the surface; its height z from the contents of each column 3 spacings around it
 
+The imbalance, signed, is averaged over the snapshots of `between`: waves and sound cancel, a lasting imbalance does not.
 By parts, so that nothing is fitted to a curvature; w spreads the slope over the footprint, where steps of single elements cancel.
 Reference 0.
 """
@@ -86,7 +87,16 @@ def _from_contents(resampled: Resampled, height: np.ndarray, low: np.ndarray) ->
     return np.where(np.isfinite(height), resampled.origin[-1] + (bottom + content) * resampled.grid_spacing, np.nan)
 
 
-@measure_of_snapshot("recoil_balance_error", unit="1", needs=("temperature", "pressure"), exact=lambda case: 0.0)
+def _of_mean_imbalance(readings: list[Reading]) -> Reading:
+    """Magnitude of the imbalance averaged over the snapshots, in which the ringing of the pressure cancels; its spread beside."""
+    known = [reading.kept for reading in readings if reading.kept is not None]
+    if not known:
+        return Reading(None, note=readings[-1].note)
+    return Reading(abs(float(np.mean(known))), uncertainty=float(np.std(known, ddof=1)) if len(known) > 1 else None)
+
+
+@measure_of_snapshot("recoil_balance_error", unit="1", needs=("temperature", "pressure"), exact=lambda case: 0.0,
+                     combine=_of_mean_imbalance)
 def recoil_balance_error(snapshot: Snapshot) -> Reading:
     case = snapshot.case
     material = primary_material(case, "surface_tension", "boiling_temperature", "vaporization_heat", "molar_mass")
@@ -105,7 +115,8 @@ def recoil_balance_error(snapshot: Snapshot) -> Reading:
                              material["molar_mass"], ambient)
     push, bear = float((weight[inside] * recoil).sum()) * surface.column, pressure * float(weight.sum()) * surface.column
     hold = _held(surface, weight, _tension(material, surface.temperature), "marangoni" in case["physics"])
-    return Reading(abs(push - bear - hold) / push,
+    imbalance = (push - bear - hold) / push
+    return Reading(abs(imbalance), kept=imbalance,
                    beside={"recoil_N": push, "liquid_pressure_N": bear, "surface_tension_N": hold,
                            "greatest_temperature_K": float(surface.temperature[inside].max())})
 
