@@ -109,6 +109,24 @@ TEST(Simulation, ComputesOnlyWhatTheCaseNames)
     EXPECT_FALSE(simulate(still, 1).particles().has("surface_delta"));
 }
 
+TEST(PlaceParticles, LiquidThatIsShiftedStartsAThousandthOfASpacingOffItsLattice)
+{
+    const auto furthest_off = [](double shifting) {
+        Case definition = pool();
+        definition.numerics.shifting = shifting;
+        const Scene scene = place_particles(definition);
+        double furthest = 0.0;
+        for (Index i = 0; i < scene.particles->count(); ++i) {
+            const double cell = scene.particles->position[i].x / 0.1 - 0.5;
+            furthest = std::max(furthest, std::abs(cell - std::round(cell)));
+        }
+        return furthest;
+    };
+    EXPECT_LT(furthest_off(0.0), 1e-12);
+    EXPECT_GT(furthest_off(1.0), 1e-4);
+    EXPECT_LT(furthest_off(1.0), 1.001e-3);
+}
+
 TEST(Simulation, SolidCoveredDomainHasNoWalls)
 {
     Case definition = pool();
@@ -126,6 +144,8 @@ Case channel()
     definition.domain.upper = definition.bodies.front().upper = {1, 0, 1};
     definition.domain.boundaries[0]->kind = definition.domain.boundaries[1]->kind = BoundaryKind::periodic;
     definition.domain.boundaries[5]->kind = BoundaryKind::wall;
+    // Nothing is shifted, so that particles start on the lattice and its rows stay.
+    definition.numerics.shifting = 0.0;
     return definition;
 }
 
@@ -164,7 +184,21 @@ double difference_to_mirrored(double shifting)
     Case half = whole;
     half.domain.lower[0] = half.bodies.front().lower[0] = 0;
     half.domain.boundaries[0]->kind = BoundaryKind::symmetry;
-    const Simulation both = simulate(whole, 100), right = simulate(half, 100);
+    const auto run = [](const Case& definition) {
+        Scene scene = place_particles(definition);
+        // Back onto the lattice, so that both halves start alike.
+        const auto centre = [](double& x) { x = 0.1 * (std::floor(x / 0.1) + 0.5); };
+        for (double& x : scene.particles->position.x)
+            centre(x);
+        for (double& z : scene.particles->position.z)
+            centre(z);
+        Simulation simulation(std::move(scene));
+        simulation.start();
+        for (int step = 0; step < 100; ++step)
+            simulation.step(1.0);
+        return simulation;
+    };
+    const Simulation both = run(whole), right = run(half);
     EXPECT_DOUBLE_EQ(both.time(), right.time());
     double greatest = 0.0, fastest = 0.0;
     std::size_t count = 0;
@@ -180,6 +214,26 @@ double difference_to_mirrored(double shifting)
     EXPECT_EQ(2 * count, both.neighbourhood().moving_particles().size());
     EXPECT_GT(fastest, 0.1);
     return greatest;
+}
+
+TEST(Simulation, MovingWallDragsTheLiquidAlongLinearly)
+{
+    Case definition = channel();
+    definition.physics = {"flow"};
+    definition.domain.boundaries[5]->velocity = {1, 0, 0};
+    definition.numerics.shifting = 1.0;
+    definition.materials.at("liquid").viscosity = 1.0;
+    Simulation simulation(place_particles(definition));
+    Particles& particles = simulation.particles();
+    for (Index i = 0; i < particles.count(); ++i)
+        if (particles.kind[static_cast<std::size_t>(i)] == Kind::fluid)
+            particles.velocity.set(i, {particles.position[i].z, 0, 0});
+    simulation.start();
+    // Ten particles across, Reynolds number 1, ν t = 0.5 H²: long enough to find another profile, were there one.
+    while (simulation.time() < 0.5)
+        simulation.step(1.0);
+    for (const Index i : simulation.neighbourhood().moving_particles())
+        EXPECT_NEAR(particles.velocity[i].x, particles.position[i].z, 0.01);
 }
 
 TEST(Simulation, MirrorSideEqualsTheOtherHalf)
