@@ -54,6 +54,11 @@ class ResolvedCase:
         return self.data["dimensions"] == 2
 
     @property
+    def has_temperature(self) -> bool:
+        """Whether there is a temperature field: solved for, or frozen where only Marangoni stress or recoil need it."""
+        return bool({"heat", "marangoni", "recoil"} & set(self.physics))
+
+    @property
     def lower(self) -> list[float]:
         return self.data["domain"]["lower"]
 
@@ -140,6 +145,10 @@ def _check(case: ResolvedCase) -> None:
         _require(data.get("laser") is not None, case, "laser", "is missing, though physics names it")
         _require("heat" in case.physics, case, "physics", "a laser needs 'heat'")
         _positive(case, "laser.spot_radius", data["laser"]["spot_radius"])
+        if (data["numerics"].get("openfoam") or {}).get("ray_tracing"):
+            # greatest absorptivity at normal incidence that Fresnel's law has in the form of Hagen and Rubens: 2 sqrt(2) - 2
+            _require(0 < data["laser"]["absorptivity"] < 0.828, case, "laser.absorptivity",
+                     "must be above 0 and below 0.828 for ray tracing: it is that of a flat metal surface")
     _require("flow" in case.physics or "heat" in case.physics, case, "physics", "names neither 'flow' nor 'heat'")
 
 

@@ -46,7 +46,7 @@ def run(case: ResolvedCase, output: Path, threads: int = 1, resume: bool = False
     (output/"run.json").unlink(missing_ok=True)
     (folder/"outcome.json").unlink(missing_ok=True)
     snapshots = SnapshotWriter(case, output/"fields")
-    with open(output/"log.txt", "a" if resume else "w", encoding="utf-8") as log:
+    with open(output/"log.txt", "a" if resume else "w", buffering=1, encoding="utf-8") as log:
         if written.ranks != threads:
             log.write(f"{threads} threads were offered, the run takes {written.ranks}\n")
         return _solve(case, meshes, written, output, snapshots, log)

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "energy_equation.hpp"
 #include "gaussConvectionScheme.H"
 #include "upwind.H"
@@ -158,7 +160,8 @@ EnergyRates EnergyEquation::advance(const volVectorField& fraction_gradient)
             equation.source() -= (losses_.loss() - losses_.slope() * last_T.primitiveField()) * mesh.V().field();
             equation.diag() += losses_.slope() * mesh.V().field();
         }
-        equation.solve();
+        if (!std::isfinite(equation.solve().initialResidual()))
+            break; // the guards say where; a second solve would fail
 
         // what crossed the borders, at the temperature that the linear system was solved for: exact for the step taken
         rates.conducted_in = rates.convected_out = 0;

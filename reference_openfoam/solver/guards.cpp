@@ -23,6 +23,12 @@ void check_fields(const Scene& scene, const Fields& fields, const TimeStep& time
     const auto report = [&trouble](const std::string& message) {
         if (trouble.empty()) trouble = message;
     };
+    // causes before what follows from them: the report is the first found
+    const scalar courant = time_step.courant(step);
+    if (std::isfinite(courant) && courant >= 5) {
+        report("the Courant number has risen to " + std::to_string(courant) +
+               " at t = " + std::to_string(fields.mesh.time().value()) + " s; lower numerics.time_step_factor");
+    }
     forAll (fields.fraction, cell) {
         const scalar share = fields.fraction[cell];
         if (!std::isfinite(share))
@@ -31,8 +37,6 @@ void check_fields(const Scene& scene, const Fields& fields, const TimeStep& time
             report("the volume fraction has left 0 … 1 (" + std::to_string(share) + ") " + place(fields, cell) +
                    "; lower numerics.time_step_factor");
         }
-        if (fields.flow.valid() && !std::isfinite(mag(fields.flow->velocity[cell])))
-            report("the velocity is not a number " + place(fields, cell) + "; lower numerics.time_step_factor");
         if (scene.physics.heat) {
             const scalar temperature = fields.heat->temperature[cell];
             const scalar boiling = scene.physics.evaporation ? scene.primary.boiling_temperature : GREAT;
@@ -46,11 +50,8 @@ void check_fields(const Scene& scene, const Fields& fields, const TimeStep& time
                        "; the beam is too intense for this mesh: refine it or lower the power");
             }
         }
-    }
-    const scalar courant = time_step.courant(step);
-    if (!(courant < 5)) {
-        report("the Courant number has risen to " + std::to_string(courant) +
-               " at t = " + std::to_string(fields.mesh.time().value()) + " s; lower numerics.time_step_factor");
+        if (fields.flow.valid() && !std::isfinite(mag(fields.flow->velocity[cell])))
+            report("the velocity is not a number " + place(fields, cell) + "; lower numerics.time_step_factor");
     }
     if (step < 1e-7 * scene.output_interval)
         report("the time step has collapsed to " + std::to_string(step / scene.output_interval) +

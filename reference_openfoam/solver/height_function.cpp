@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "fixedGradientFvPatchFields.H"
 #include "height_function.hpp"
@@ -11,7 +10,9 @@ namespace cupel
 namespace
 {
 const scalar full = 0.99, empty_share = 0.01; // where a column counts as inside or outside
-const int reach = 6;                          // cells on each side: MULES spreads the interface over three or four
+const scalar turn = 0.02;                     // how far α may go back on the way: noise
+const int reach = 9; // cells on each side: MULES spreads the interface over three or four, seen along a diagonal over
+                     // six, and the columns beside it stand two cells higher or lower
 
 /// First and second derivative at the middle of three points at −a, 0, b.
 void derivatives(scalar below, scalar here, scalar above, scalar a, scalar b, scalar& first, scalar& second)
@@ -23,7 +24,7 @@ void derivatives(scalar below, scalar here, scalar above, scalar a, scalar b, sc
 } // namespace
 
 HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, scalar contact_angle)
-    : cell_index_(fraction.mesh().nCells()), spacing_(spacing)
+    : grid_(fraction.mesh(), spacing), spacing_(spacing)
 {
     const fvMesh& mesh = fraction.mesh();
     forAll (mesh.boundary(), patch) {
@@ -41,49 +42,28 @@ HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, s
             side.cotangent = wets ? Foam::cos(contact_angle) / Foam::sin(contact_angle) : 0;
         }
     }
-    const scalar resolution = 1e-3 * spacing;
-    for (int axis = 0; axis < 3; ++axis) {
-        // centres of the cells along this axis, over all ranks, and their widths from the recursion of mid-points
-        List<scalarList> parts(Pstream::nProcs());
-        parts[Pstream::myProcNo()] = mesh.C().primitiveField().component(axis)();
-        Pstream::gatherList(parts);
-        Pstream::scatterList(parts);
-        std::vector<scalar> all;
-        for (const scalarList& part : parts)
-            all.insert(all.end(), part.begin(), part.end());
-        std::sort(all.begin(), all.end());
-        std::vector<scalar>& centres = lines_[axis].centres;
-        for (const scalar value : all)
-            if (centres.empty() || value - centres.back() > resolution) centres.push_back(value);
-        scalar face = mesh.bounds().min()[axis];
-        for (const scalar centre : centres) {
-            lines_[axis].widths.push_back(2 * (centre - face));
-            face += lines_[axis].widths.back();
-        }
-        forAll (mesh.C(), cell) {
-            const auto found = std::lower_bound(centres.begin(), centres.end(), mesh.C()[cell][axis] - resolution);
-            cell_index_[cell][axis] = int(found - centres.begin());
-        }
-    }
 }
 
 bool HeightFunction::height(const std::vector<scalar>& fraction, Index start, int axis, int outward,
                             scalar& position) const
 {
-    const Line& line = lines_[axis];
-    const int count = int(line.widths.size()), from = start[axis];
+    const BlockGrid::Line& line = grid_.line(axis);
+    const int count = line.count(), from = start[axis];
     const auto share = [&](int k) {
         start[axis] = k;
-        return fraction[flat(start)];
+        return fraction[grid_.flat(start)];
     };
+    // from the cell to where it is full, and to where it is empty; a turn on the way is another surface
     int inside = from, outside = from;
     for (int step = 0; share(inside) < full; ++step) {
         inside -= outward;
-        if (step == reach || inside < 0 || inside >= count) return false;
+        if (step == reach || inside < 0 || inside >= count || share(inside) < share(inside + outward) - turn)
+            return false;
     }
     for (int step = 0; share(outside) > empty_share; ++step) {
         outside += outward;
-        if (step == reach || outside < 0 || outside >= count) return false;
+        if (step == reach || outside < 0 || outside >= count || share(outside) > share(outside - outward) + turn)
+            return false;
     }
     position = outward * line.centres[inside] - 0.5 * line.widths[inside];
     for (int k = inside; k != outside + outward; k += outward)
@@ -93,7 +73,7 @@ bool HeightFunction::height(const std::vector<scalar>& fraction, Index start, in
 
 scalar HeightFunction::spacing_between(int axis, int index) const
 {
-    const Line& line = lines_[axis];
+    const BlockGrid::Line& line = grid_.line(axis);
     if (index < 0) return line.widths.front();
     if (index + 1 >= int(line.centres.size())) return line.widths.back();
     return line.centres[index + 1] - line.centres[index];
@@ -101,7 +81,7 @@ scalar HeightFunction::spacing_between(int axis, int index) const
 
 scalar HeightFunction::slope(const scalar (&row)[3], int axis, int index) const
 {
-    const int last = int(lines_[axis].widths.size()) - 1;
+    const int last = grid_.line(axis).count() - 1;
     if (last == 0) return 0;
     const int from = index > 0 ? 0 : 1, to = index < last ? 2 : 1; // one-sided beside a side
     const scalar below = index > 0 ? spacing_between(axis, index - 1) : 0,
@@ -114,10 +94,8 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
 {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     scalar heights[3][3] = {};
-    const bool flat_x = lines_[x].widths.size() == 1, flat_y = lines_[y].widths.size() == 1; // a scene in a plane
-    const auto is_behind = [this](int along, int index) {
-        return index < 0 || index >= int(lines_[along].widths.size());
-    };
+    const bool flat_x = grid_.line(x).count() == 1, flat_y = grid_.line(y).count() == 1; // a scene in a plane
+    const auto is_behind = [this](int along, int index) { return index < 0 || index >= grid_.line(along).count(); };
     for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j) {
             Index column = cell;
@@ -134,7 +112,8 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
         for (int j = 0; j < 3; ++j) {
             if (!flat_y && is_behind(y, cell[y] + j - 1)) continue;
             const scalar along = slope(heights[1], y, cell[y]);
-            heights[i + 1][j] = heights[1][j] + side.cotangent * lines_[x].widths[cell[x]] * std::sqrt(1 + sqr(along));
+            heights[i + 1][j] =
+                heights[1][j] + side.cotangent * grid_.line(x).widths[cell[x]] * std::sqrt(1 + sqr(along));
         }
     }
     for (int j = -1; j <= 1 && !flat_y; j += 2) {
@@ -143,7 +122,7 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
         if (!side.continues) return false;
         const scalar middle[3] = {heights[0][1], heights[1][1], heights[2][1]};
         for (int i = 0; i < 3; ++i) {
-            heights[i][j + 1] = heights[i][1] + side.cotangent * lines_[y].widths[cell[y]] *
+            heights[i][j + 1] = heights[i][1] + side.cotangent * grid_.line(y).widths[cell[y]] *
                                                     std::sqrt(1 + sqr(slope(middle, x, cell[x])));
         }
     }
@@ -168,16 +147,7 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
 void HeightFunction::apply(volScalarField& curvature, const volScalarField& fraction,
                            const volVectorField& gradient) const
 {
-    std::vector<scalar> shares(lines_[0].widths.size() * lines_[1].widths.size() * lines_[2].widths.size(), 0);
-    forAll (fraction, cell)
-        shares[flat(cell_index_[cell])] = fraction[cell];
-    if (Pstream::parRun()) {
-        scalarList all(label(shares.size()));
-        std::copy(shares.begin(), shares.end(), all.begin());
-        Pstream::listCombineGather(all, plusEqOp<scalar>());
-        Pstream::listCombineScatter(all);
-        std::copy(all.begin(), all.end(), shares.begin());
-    }
+    const std::vector<scalar> shares = grid_.gathered(fraction.primitiveField());
     const scalar near_interface = 1e-3 / spacing_;
     forAll (curvature, cell) {
         const vector& slope = gradient[cell];
@@ -188,7 +158,7 @@ void HeightFunction::apply(volScalarField& curvature, const volScalarField& frac
             const int axis = axes[choice];
             scalar value = 0;
             if (mag(slope[axis]) < 0.3 * mag(slope)) break;
-            if (curvature_along(shares, cell_index_[cell], axis, slope[axis] > 0 ? -1 : 1, value)) {
+            if (curvature_along(shares, grid_.index(cell), axis, slope[axis] > 0 ? -1 : 1, value)) {
                 curvature[cell] = value;
                 break;
             }

@@ -14,10 +14,7 @@
 /// several per cent off at every resolution.
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "foam.hpp"
+#include "block_grid.hpp"
 
 namespace cupel
 {
@@ -31,12 +28,8 @@ public:
     void apply(volScalarField& curvature, const volScalarField& fraction, const volVectorField& gradient) const;
 
 private:
-    typedef std::array<int, 3> Index;
+    typedef BlockGrid::Index Index;
 
-    std::size_t flat(const Index& index) const
-    {
-        return index[0] + lines_[0].widths.size() * (index[1] + lines_[1].widths.size() * index[2]);
-    }
     /// Position of the interface in the column along `axis` through `start`, toward `outward` (±1); false if it has
     /// none in reach.
     bool height(const std::vector<scalar>& fraction, Index start, int axis, int outward, scalar& position) const;
@@ -49,11 +42,6 @@ private:
     /// Slope of three heights in a row along `axis`, of those that are inside the mesh.
     scalar slope(const scalar (&row)[3], int axis, int index) const;
 
-    struct Line
-    {
-        std::vector<scalar> centres, widths;
-    };
-
     /// One end of an axis: whether heights can be continued behind it, and with which slope.
     struct Side
     {
@@ -61,9 +49,8 @@ private:
         scalar cotangent = 0;
     };
 
-    std::array<Line, 3> lines_;
+    const BlockGrid grid_;
     std::array<std::array<Side, 2>, 3> sides_;
-    std::vector<Index> cell_index_; // of each cell of this rank
     scalar spacing_;
 };
 } // namespace cupel

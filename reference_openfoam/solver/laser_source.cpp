@@ -1,28 +1,22 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "gaussian_beam.hpp"
 #include "laser_source.hpp"
 
 namespace cupel
 {
-namespace
-{
-/// Share of a Gaussian of 1/e² radius r that lies between lower and upper, both from its axis.
-scalar gaussian_share(scalar lower, scalar upper, scalar radius)
-{
-    const scalar scale = std::sqrt(2.0) / radius;
-    return 0.5 * (std::erf(upper * scale) - std::erf(lower * scale));
-}
-} // namespace
-
 LaserSource::LaserSource(const Scene& scene, const fvMesh& mesh)
     : scene_(scene), mesh_(mesh), power_density_(IOobject("laser_power_density", mesh.time().timeName(), mesh,
                                                           IOobject::NO_READ, IOobject::NO_WRITE),
                                                  mesh, dimensionedScalar(dimPower / dimVolume, Zero))
 {
+    if (scene.numerics.getOrDefault<bool>("ray_tracing", false)) {
+        rays_.reset(new RayTracing(scene, mesh));
+        return;
+    }
     // cells of one column share their footprint; a thousandth of the spacing tells columns apart
     const scalar resolution = 1e-3 * scene.spacing;
     std::map<std::pair<long, long>, std::size_t> index;
@@ -51,6 +45,11 @@ LaserPower LaserSource::update(scalar time, const volScalarField& fraction)
     if (!laser.is_on(time)) return power;
     power.emitted = laser.power;
     const point axis = laser.axis(time);
+    if (rays_.valid()) {
+        power.expected = rays_->absorb(axis, fraction, density);
+        power.absorbed = volume_integral(density, mesh_);
+        return power;
+    }
     std::vector<scalar> shares;
     for (const Column& column : columns_) {
         const scalar footprint =

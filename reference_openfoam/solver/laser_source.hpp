@@ -7,16 +7,20 @@
 /// part of the column shadows that part of what lies below. The shares of a column that is hit add up to one, so the
 /// absorbed power is A·P of what the beam hits on a surface of any shape. Columns without a surface let their light
 /// through.
+///
+/// Where the case asks for it, rays with reflections take the place of this (ray_tracing.hpp).
 #pragma once
 
 #include "fields.hpp"
+#include "ray_tracing.hpp"
 
 namespace cupel
 {
 struct LaserPower
 {
-    scalar emitted = 0;  ///< P while the beam is on [W]
-    scalar expected = 0; ///< A P times the share of the beam that falls on columns with a surface [W]
+    scalar emitted = 0; ///< P while the beam is on [W]
+    scalar expected =
+        0; ///< A P times the share of the beam that falls on columns with a surface; of rays, what surfaces took [W]
     scalar absorbed = 0; ///< what the field holds, summed over cells [W]
 };
 
@@ -39,6 +43,7 @@ private:
 
     const Scene& scene_;
     const fvMesh& mesh_;
+    autoPtr<RayTracing> rays_;
     std::vector<Column> columns_;
     volScalarField power_density_;
 };

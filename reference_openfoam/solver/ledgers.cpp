@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -9,6 +10,7 @@ namespace
 {
 std::string entry(const char* name, scalar value)
 {
+    if (!std::isfinite(value)) return '"' + std::string(name) + "\": null"; // of a run that has gone astray
     char text[96];
     std::snprintf(text, sizeof text, "\"%s\": %.12g", name, value);
     return text;

@@ -1,6 +1,8 @@
-#include "momentum_equation.hpp"
+#include <cmath>
+
 #include "capillary_force.hpp"
 #include "marangoni_stress.hpp"
+#include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
 
@@ -15,6 +17,7 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
     tmp<surfaceScalarField> force(new surfaceScalarField(
         IOobject("face_force", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
         dimensionedScalar(dimForce / dimVolume, Zero)));
+    force.ref().setOriented(); // it is a force along each face's normal, also where nothing adds to it
     if (scene.physics.surface_tension || scene.physics.recoil) {
         const surfaceScalarField interface_gradient(weighted_interface_gradient(scene, fields));
         if (scene.physics.surface_tension)
@@ -65,11 +68,12 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
 
         fvScalarMatrix pressure(fvm::laplacian(rAUf, p_rgh) == fvc::div(predicted_flux));
         pressure.setReference(flow.reference_cell, flow.reference_pressure);
-        pressure.solve(mesh.solver(p_rgh.select(corrector == correctors)));
+        const scalar residual = pressure.solve(mesh.solver(p_rgh.select(corrector == correctors))).initialResidual();
 
         phi = predicted_flux - pressure.flux();
         U = HbyA + rAU * fvc::reconstruct((force_flux - pressure.flux()) / rAUf);
         U.correctBoundaryConditions();
+        if (!std::isfinite(residual)) break; // the guards say where
     }
 }
 } // namespace cupel

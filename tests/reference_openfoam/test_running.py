@@ -182,3 +182,50 @@ def test_a_beam_that_the_mesh_cannot_bear_is_stopped_with_a_diagnosis(tmp_path):
     assert record["status"] == "stopped"
     assert "three times the boiling temperature" in record["diagnosis"] and "refine it or lower the power" in record["diagnosis"]
     assert len(result.stderr.splitlines()) == 1
+
+
+def falling_block(**changes):
+    """A block of liquid that falls through gas in a closed box, in the plane: 16 x 16 cells."""
+    parts = dict(
+        spacing=1e-3, dimensions=2, physics=["flow", "gravity"], gravity=[0.0, 0.0, -9.81],
+        materials={"oil": {"density": 1000.0, "viscosity": 0.01}, "gas": {"density": 1.0, "viscosity": 1e-5}},
+        surrounding={"material": "gas", "resolved": True, "temperature": 300.0, "pressure": 101325.0, "convection_coefficient": 0.0},
+        domain={"lower": [0.0, 0.0, 0.0], "upper": [0.016, 0.0, 0.016],
+                "boundaries": {side: small_cases.WALL for side in ("x_min", "x_max", "z_min", "z_max")}},
+        bodies=[{"shape": "box", "material": "oil", "state": "liquid", "lower": [0.004, 0.0, 0.009], "upper": [0.012, 0.0, 0.015]}],
+        time={"end": 0.05, "output_interval": 0.05})
+    return small_cases.case(**(parts | changes))
+
+
+def stopped(result, folder):
+    """run.json of a run that a guard has stopped, with one line on standard error and no claim to be a result."""
+    assert result.returncode == 1 and len(result.stderr.splitlines()) == 1, result.stderr
+    record = json.loads((folder/"result"/"run.json").read_text())
+    assert record["status"] == "stopped" and record["diagnosis"] in result.stderr
+    return record
+
+
+def test_a_courant_number_out_of_hand_is_stopped_with_a_diagnosis(tmp_path):
+    # forty times the longest steps that the limits allow, from the first on: it falls for 50 ms, to 0.5 m/s, 25 cells a step
+    data = falling_block(numerics={"time_step_factor": 40.0}, time={"end": 50.0, "output_interval": 50.0})
+    record = stopped(small_cases.solve(data, tmp_path), tmp_path)
+    assert "Courant number has risen to" in record["diagnosis"] and "lower numerics.time_step_factor" in record["diagnosis"]
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_field_that_is_no_number_is_stopped_with_place_and_time(threads, tmp_path):
+    data = small_cases.grain_on_plate(numerics={"openfoam": {"mesh": "static"}})
+    process = start(data, tmp_path, "--threads", str(threads))
+    while not (tmp_path/"result"/"fields"/"fields_000000.vtu").exists() and process.poll() is None:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    mesh = tmp_path/"result"/"checkpoints"/"mesh_0000"
+    part = mesh/f"processor{threads - 1}" if threads > 1 else mesh           # on the last rank, which is not the one that reports
+    newest = max((path for path in part.iterdir() if path.name[0].isdigit()), key=lambda path: float(path.name))
+    raw = bytearray((newest/"T").read_bytes())
+    place = raw.index(b"(", raw.index(b"internalField")) + 1
+    raw[place:place + 8] = np.array([np.nan]).tobytes()
+    (newest/"T").write_bytes(raw)
+    record = stopped(small_cases.solve(data, tmp_path, "--resume"), tmp_path)
+    assert "the temperature is not a number at t = " in record["diagnosis"] and "x = (" in record["diagnosis"]
