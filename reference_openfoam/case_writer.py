@@ -10,12 +10,13 @@ import numpy as np
 
 from .blocks import block_counts
 from .case_folder import CaseFolder
-from .foam_files import boundary_section, dictionary, header, scalar_list, write_dictionary, write_field
+from .errors import Refused
+from .foam_files import boundary_section, dictionary, entry, header, scalar_list, vector_list, write_dictionary, write_field
 from .grid import Grid, make_grid
 from .mesh_files import write_mesh
 from .moving_mesh import Window
 from .resolved_case import SIDES, ResolvedCase
-from .volume_fractions import top_of_bodies, volume_fractions
+from .volume_fractions import contains, top_of_bodies, volume_fractions
 
 # Numerics of the reference, the same for every case. Reasons: README.md, section Numerics.
 NUMERICS = {
@@ -92,12 +93,40 @@ def patch_types(case: ResolvedCase) -> dict[str, str]:
 
 
 def start_temperature(case: ResolvedCase, positions: np.ndarray) -> np.ndarray:
-    """Temperature at the start (n,) K at positions (n, 3) m: initial.temperature + gradient . (x - domain.lower)."""
+    """Temperature at the start (n,) K at positions (n, 3) m: of the uppermost body there that has one of its own, else
+    initial.temperature + gradient . (x - domain.lower) + hot spot; exactly solid or liquid where it is the melting point."""
     initial = case.data["initial"]
     origin = np.array(case.lower, dtype=float)
     if case.is_planar:
         origin[1] = 0.0
-    return initial["temperature"] + (positions - origin) @ np.array(initial["temperature_gradient"], dtype=float)
+    field = initial["temperature"] + (positions - origin) @ np.array(initial["temperature_gradient"], dtype=float)
+    spot = initial.get("hot_spot")
+    if spot:
+        square = ((positions[:, :2] - np.array(spot["center"][:2], dtype=float))**2).sum(axis=1)
+        field = field + spot["rise"]*np.exp(-2*square/spot["radius"]**2)
+    temperature = field.copy()
+    primary = _primary_entries(case) if "melting" in case.physics else {}
+    for body in case.data["bodies"]:
+        here = contains(body, positions, case.is_planar)
+        own = body.get("temperature")
+        temperature[here] = field[here] if own is None else own
+        if primary and body["material"] == case.primary_name and primary["liquidus"] - primary["solidus"] <= NARROWEST_MUSHY_RANGE:
+            side = primary["solidus"] if body["state"] == "solid" else primary["liquidus"]
+            melting = here & (temperature >= primary["solidus"]) & (temperature <= primary["liquidus"])
+            temperature[melting] = side
+    return temperature
+
+
+def start_velocity(case: ResolvedCase, positions: np.ndarray) -> np.ndarray | None:
+    """Velocity at the start (n, 3) m/s at positions (n, 3) m; None at rest. Taylor-Green: U (sin kx cos kz, 0, -cos kx sin kz)."""
+    field = case.data["initial"].get("velocity")
+    if not field:
+        return None
+    if field["field"] != "taylor_green":
+        raise Refused(f"{case.path}: initial.velocity.field: this solver knows taylor_green, not '{field['field']}'")
+    wave_number = 2*np.pi/field["wavelength"]
+    x, z = wave_number*positions[:, 0], wave_number*positions[:, 2]
+    return field["speed"]*np.column_stack([np.sin(x)*np.cos(z), np.zeros(len(x)), -np.cos(x)*np.sin(z)])
 
 
 def _boundary(case: ResolvedCase, wall, opening: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -120,17 +149,16 @@ def _write_start_fields(case: ResolvedCase, grid: Grid, fraction: np.ndarray, fo
         lambda side: {"type": "fixedGradient", "gradient": "uniform 0"} if wetting else {"type": "zeroGradient"},
         _inflow(case, 0.0)))
     if "flow" in case.physics:
-        write_field(folder/"U", "volVectorField", "[0 1 -1 0 0 0 0]", "uniform (0 0 0)", _boundary(
-            case,
-            lambda side: {"type": "noSlip"} if case.boundaries[side].get("slip", "no_slip") == "no_slip" else {"type": "slip"},
-            {"type": "pressureInletOutletVelocity", "value": "uniform (0 0 0)"}))
+        velocity = start_velocity(case, grid.cell_centres())
+        write_field(folder/"U", "volVectorField", "[0 1 -1 0 0 0 0]", "uniform (0 0 0)" if velocity is None else vector_list(velocity), _boundary(
+            case, lambda side: _wall_velocity(case, side), {"type": "pressureInletOutletVelocity", "value": "uniform (0 0 0)"}))
         write_field(folder/"p_rgh", "volScalarField", "[1 -1 -2 0 0 0 0]", "uniform 0", _boundary(
             case, lambda side: {"type": "fixedFluxPressure", "value": "uniform 0"},
             {"type": "totalPressure", "rho": "density", "p0": "uniform 0", "value": "uniform 0"}))
     if "heat" in case.physics:
         write_field(folder/"T", "volScalarField", TEMPERATURE, scalar_list(start_temperature(case, grid.cell_centres())),
                     _boundary(case, lambda side: _wall_temperature(case, side), _inflow(case, ambient_temperature(case))))
-    elif "marangoni" in case.physics:
+    elif case.has_temperature:
         # frozen: the linear field up to the sides, so that its gradient is exact in the cells along them
         conditions = {}
         for side, patch_type in patch_types(case).items():
@@ -145,6 +173,14 @@ def _inflow(case: ResolvedCase, value: float) -> dict[str, Any]:
     if "flow" not in case.physics:
         return {"type": "zeroGradient"}
     return {"type": "inletOutlet", "inletValue": f"uniform {value!r}", "value": f"uniform {value!r}"}
+
+
+def _wall_velocity(case: ResolvedCase, side: str) -> dict[str, Any]:
+    boundary = case.boundaries[side]
+    if boundary.get("slip", "no_slip") != "no_slip":
+        return {"type": "slip"}
+    velocity = [float(part) for part in boundary.get("velocity") or (0.0, 0.0, 0.0)]
+    return {"type": "fixedValue", "value": "uniform " + entry(velocity)} if any(velocity) else {"type": "noSlip"}
 
 
 def _wall_temperature(case: ResolvedCase, side: str) -> dict[str, Any]:

@@ -67,7 +67,7 @@ class SnapshotWriter:
         density = fraction*case.primary["density"] + (1 - fraction)*case.surrounding["density"]
         result = {"fraction": np.clip(fraction, 0, 1), "volume": self.volumes, "density": density}
         temperature = None
-        if "heat" in case.physics or "marangoni" in case.physics:
+        if case.has_temperature:
             temperature = result["temperature"] = written.read(time, "T")
         if "heat" in case.physics:
             result["peak_temperature"] = written.read(time, "peak_temperature")

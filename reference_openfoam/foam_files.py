@@ -50,14 +50,15 @@ def scalar_list(values: np.ndarray) -> str:
     return f"nonuniform List<scalar> {len(values)}\n(\n" + "\n".join(map(repr, values.tolist())) + "\n)"
 
 
+def vector_list(values: np.ndarray) -> str:
+    """(n, 3) as `nonuniform List<vector> n(...)`."""
+    rows = "\n".join(f"({x!r} {y!r} {z!r})" for x, y, z in values.tolist())
+    return f"nonuniform List<vector> {len(values)}\n(\n{rows}\n)"
+
+
 def write_field(path: Path, kind: str, dimensions: str, internal: str, boundary: dict[str, dict[str, Any]]) -> None:
     """Write a field file. kind: volScalarField or volVectorField; dimensions: e.g. `[0 1 -1 0 0 0 0]`."""
     write_field_with(path, kind, dimensions, internal, dictionary({"boundaryField": boundary}))
-
-
-def vector_list(values: np.ndarray) -> str:
-    """(n, 3) as `nonuniform List<vector> n(...)`."""
-    return f"nonuniform List<vector> {len(values)}\n(\n" + "\n".join("(%r %r %r)" % tuple(row) for row in values.tolist()) + "\n)"
 
 
 def write_field_with(path: Path, kind: str, dimensions: str, internal: str, boundary_section: str) -> None:

@@ -14,7 +14,6 @@ The greatest temperature that was reached is averaged over the primary material,
 from __future__ import annotations
 
 import shutil
-from pathlib import Path
 
 import numpy as np
 

@@ -54,6 +54,11 @@ class ResolvedCase:
         return self.data["dimensions"] == 2
 
     @property
+    def has_temperature(self) -> bool:
+        """Whether there is a temperature field: solved for, or frozen where only Marangoni stress or recoil need it."""
+        return bool({"heat", "marangoni", "recoil"} & set(self.physics))
+
+    @property
     def lower(self) -> list[float]:
         return self.data["domain"]["lower"]
 

@@ -14,10 +14,15 @@ QUANTITY_NAMES = {
     "bead_height": "Bead height", "energy_closure": "Energy ledger, closure", "volume_closure": "Volume of each phase, change",
     "mass_closure": "Mass ledger, closure",
     "laser_absorbed_error": "Laser power absorbed, error", "width_growth_with_power": "Width grows with power",
-    "run": "Run",
+    "run": "Run", "kept_result": "Kept result",
+    "decay_rate": "Decay rate of energy", "velocity_profile_error": "Velocity profile, L2 error",
+    "front_position": "Position of the front", "laplace_pressure": "Pressure inside less outside",
+    "spurious_capillary_number": "Spurious capillary number", "oscillation_frequency": "Frequency", "oscillation_decay": "Decay rate",
+    "oscillation_period": "Period", "wave_error": "Amplitude of the wave, RMS error", "drop_velocity": "Velocity of the drop",
+    "migration_error": "Velocity of the drop, greatest error", "recoil_balance_error": "Balance of recoil, error",
 }
 KIND_NAMES = {"exact": "exact", "tabulated": "tabulated", "solver": "other solver", "experiment": "experiment",
-              "paper": "paper", None: ""}
+              "paper": "paper", "kept": "kept", None: ""}
 
 
 def solver_name(solver: str) -> str:
@@ -26,8 +31,9 @@ def solver_name(solver: str) -> str:
 
 
 def quantity_name(quantity: str) -> str:
-    """A measure's name in print."""
-    return QUANTITY_NAMES.get(quantity, quantity.replace("_", " ").capitalize())
+    """A measure's name in print; also with what follows a comma, as in `NAME, against kept`."""
+    name, comma, rest = quantity.partition(", ")
+    return QUANTITY_NAMES.get(name, name.replace("_", " ").capitalize()) + comma + rest
 
 
 def scale_of(unit: str, size: float) -> tuple[float, str]:
@@ -72,6 +78,17 @@ def quantity(value: float | None, unit: str, like: float | None = None, digits: 
     return text + ("" if printed == "" else printed if printed == "°" else f" {printed}")
 
 
+def uncertain(value: float, uncertainty: float, unit: str) -> str:
+    """A value ± its uncertainty, which has two digits, with as many decimals as that has."""
+    factor, printed = scale_of(unit, value)
+    value, uncertainty = value * factor, uncertainty * factor
+    unit_text = "" if printed == "" else printed if printed == "°" else f" {printed}"
+    if uncertainty <= 0.0 or not 1e-3 <= abs(value) < 1e6:
+        return f"{number(value)} ± {number(uncertainty, 2)}{unit_text}"
+    decimals = min(max(0, 1 - math.floor(math.log10(uncertainty))), 6)
+    return f"{value:.{decimals}f} ± {number(uncertainty, 2)}{unit_text}".replace("-", "−")
+
+
 def present(row: Row) -> dict:
     """A row of comparison in print: texts for value, reference, error and tolerance, with `verdict` in words."""
     like = row.reference if row.reference else row.value
@@ -106,7 +123,8 @@ def signed_percent(share: float) -> str:
 
 
 def signed(text: str) -> str:
-    return text if text.startswith(("−", "0")) else "+" + text
+    """A printed number with its sign; none for 0."""
+    return text if text.startswith("−") or not any(digit in text for digit in "123456789") else "+" + text
 
 
 def memory(count: float | None) -> str:

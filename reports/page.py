@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import datetime
+import os
 import platform
 from collections import Counter
 from pathlib import Path
 
 import jinja2
+import markupsafe
 from cupel import __version__
 from cupel.comparison import Row
 from cupel.display import duration
-from cupel.results import write_whole
+from cupel.results import kept_folder, write_whole
 
 from . import formatting
 from .colours import solver_colour
 from .formatting import grouped, memory, number, present, solver_name
 from .gather import Case, Run, gather
+from .orders import orders_block
 from .pictures import group_views, kind_of, pictures_of, power_views
 from .power import power_picture, power_table
+from .tiers import TIERS, tier_blocks
 
 HERE = Path(__file__).parent
 
@@ -31,24 +35,32 @@ def write_page(root: Path, names: list[str] | None, variant: str) -> Path:
     """
     cases, trends = gather(root, names, variant)
     rows = [row for case in cases for run in case.runs for row in run.rows] + trends
-    pictures = pictures_of(cases)
+    verified = tier_blocks(cases)
+    shown = [case for case in cases if case.tier not in TIERS]   # those with a page of their own; the others are in their tier's table
+    pictures = pictures_of(shown)
     content = {
         "variant": variant, "made": datetime.datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z"), "version": __version__,
         "host": platform.node(), "style": (HERE / "style.css").read_text(),
-        "cases": [case_block(case, pictures[case.name], root) for case in cases],
+        "cases": [case_block(case, pictures[case.name], root) for case in shown], "tiers": verified,
+        "orders": orders_block(root, cases),
         "tally": Counter(row.verdict for row in rows), "judged": sum(row.verdict != "none" for row in rows),
-        "power": power_picture(cases), "power_rows": power_table(cases), "power_views": power_views(cases, pictures),
+        "power": power_picture(cases), "power_rows": power_table(cases), "power_views": power_views(shown, pictures),
         "trends": [present(row) for row in trends],
         "ledgers": [line for case in cases for run in case.runs for line in ledger_lines(run)],
         "costs": [cost_line(run) for case in cases for run in case.runs if run.result],
-        "assumed": assumed_table(cases), "commits": commits(cases), "missing": missing_runs(cases),
+        "assumed": assumed_table(cases), "commits": commits(cases), "missing": missing_runs(shown),
     }
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"chip": chip, "solver_name": solver_name}
+    environment.filters |= {"chip": chip, "solver_name": solver_name, "breakable": breakable}
     path = root / "report.html" if variant == "coarse" else root / f"report_{variant}.html"
     write_whole(path, environment.get_template("page.html.j2").render(content))
     return path
+
+
+def breakable(name: str) -> markupsafe.Markup:
+    """A name that may be broken after each underscore."""
+    return markupsafe.Markup("_<wbr>").join(name.split("_"))
 
 
 def chip(verdict: str) -> str:
@@ -72,12 +84,12 @@ def run_block(run: Run, root: Path) -> dict:
     """One line of the summary: status, how many comparisons pass, time, links."""
     verdicts = Counter(row.verdict for row in run.rows)
     judged = sum(verdicts.values()) - verdicts["none"]
-    folder = run.place.folder.relative_to(root)
-    links = [(name, f"{folder}/{name}") for name in ("result.json", "series.csv", "measures.csv", "log.txt", "fields/fields.pvd")
-             if (run.place.folder / name).exists()]
+    folder = kept_folder(run.place.case) / run.solver / run.place.variant if run.kept else run.place.folder
+    links = [(name, os.path.relpath(folder / name, root))
+             for name in ("result.json", "series.csv", "measures.csv", "log.txt", "fields/fields.pvd") if (folder / name).exists()]
     return {
         "solver": solver_name(run.solver), "colour": solver_colour(run.solver), "status": run.status,
-        "diagnosis": run.result["diagnosis"] if run.result else run.rows[0].note, "passed": verdicts["pass"], "judged": judged,
+        "kept": run.kept, "diagnosis": run.result["diagnosis"] if run.result else run.rows[0].note, "passed": verdicts["pass"], "judged": judged,
         "failed": verdicts["fail"], "wall": duration(run.result["cost"].get("wall_s")) if run.result else "–", "links": links,
     }
 

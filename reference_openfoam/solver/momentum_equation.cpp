@@ -17,6 +17,7 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
     tmp<surfaceScalarField> force(new surfaceScalarField(
         IOobject("face_force", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
         dimensionedScalar(dimForce / dimVolume, Zero)));
+    force.ref().setOriented(); // it is a force along each face's normal, also where nothing adds to it
     if (scene.physics.surface_tension || scene.physics.recoil) {
         const surfaceScalarField interface_gradient(weighted_interface_gradient(scene, fields));
         if (scene.physics.surface_tension)

@@ -13,8 +13,8 @@ struct Physics
     explicit Physics(const wordList& names);
 
     bool flow, surface_tension, wetting, marangoni, recoil, evaporation, radiation, laser, heat, melting, gravity;
-    /// A frozen temperature field drives the Marangoni stress when there is no energy equation.
-    bool has_temperature() const { return heat || marangoni; }
+    /// A frozen temperature field drives Marangoni stress and recoil when there is no energy equation.
+    bool has_temperature() const { return heat || marangoni || recoil; }
 };
 
 /// A Gaussian beam that travels down a straight line at constant speed, shining along −z.

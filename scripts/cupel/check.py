@@ -6,16 +6,30 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
-from .comparison import Row, fill_solver_references, power_trend_rows, rows_at
+from .comparison import Row, fill_solver_references, power_trend_rows
+from .convergence import converge, lines_of, write_convergence
+from .errors import CupelError
+from .judging import Judged, judged_at
+from .kept import age
 from .layout import ResultPlace
-from .results import write_whole
+from .results import read_kept, write_whole
 
 
 def check_results(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str, junit: Path) -> int:
-    """Judges every wanted result; writes `junit`; 0 if every row passes and none is missing, else 1."""
-    rows = gather(root, cases, solvers, variant)
+    """Judges every wanted result; writes `junit`; 0 if every row passes and none is missing, else 1.
+
+    Orders and uncertainties of the cases are printed too and written to results/CASE/convergence.json; they are not judged.
+    """
+    rows, kept = gather(root, cases, solvers, variant)
     for row in rows:
         print(f"{row.verdict:8} {row.case} {row.solver} {row.quantity}{describe(row)}")
+    for case in cases:
+        found = converge(root, case)
+        write_convergence(root, found)
+        for line in lines_of(found):
+            print(line)
+    for line in kept:
+        print(line)
     write_whole(junit, junit_xml(rows))
     bad = [row for row in rows if row.verdict in ("fail", "missing")]
     judged = [row for row in rows if row.verdict != "none"]
@@ -23,17 +37,34 @@ def check_results(root: Path, cases: list[str], solvers: tuple[str, ...], varian
     return 1 if bad or not judged else 0
 
 
-def gather(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str) -> list[Row]:
-    """All rows of the wanted results, with the trends over them; a missing result gives a row that says so."""
-    rows, results = [], []
+def gather(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str) -> tuple[list[Row], list[str]]:
+    """All rows of the wanted results, with the trends over them, and a line for each kept result that is used or outdated.
+
+    A result that has not been run is stood in for by the kept one; a missing one gives a row that says so.
+    """
+    rows, results, lines = [], [], []
     for case in cases:
         fill_solver_references(root, case, variant)
         for solver in solvers:
-            result, of_result = rows_at(ResultPlace(root, case, solver, variant))
-            rows += of_result
-            if result is not None:
-                results.append(result)
-    return rows + power_trend_rows(results)
+            place = ResultPlace(root, case, solver, variant)
+            judged = judged_at(place)
+            rows += judged.rows
+            if judged.result is not None:
+                results.append(judged.result)
+            lines += kept_lines(place, judged)
+    return rows + power_trend_rows(results), lines
+
+
+def kept_lines(place: ResultPlace, judged: Judged) -> list[str]:
+    """What to say of the kept result at `place`: that it stands in for a fresh one, or that the code has moved on since."""
+    if judged.kept:
+        return [f"kept     {place.case} {place.solver}: not run here, {judged.kept}"]
+    try:
+        kept = read_kept(place.case, place.solver, place.variant)
+    except CupelError:
+        return []   # said in a row already
+    since = age(kept) if kept is not None else ""
+    return [f"outdated {place.case} {place.solver}: kept result of {kept['code']['commit']}, {since}; ./cupel keep renews it"] if since else []
 
 
 def describe(row: Row) -> str:

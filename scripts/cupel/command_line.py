@@ -115,6 +115,26 @@ def check(
 
 
 @app.command()
+def keep(
+    names: Optional[List[str]] = CASES,
+    level: Level = LEVEL,
+    tier: Optional[Tier] = TIER,
+    solver: Solver = SOLVER,
+    results: Optional[Path] = RESULTS,
+) -> int:
+    """Keep completed results as data beside their cases, for what is too long to run each time."""
+    from .kept import keep as keep_results
+
+    if not names and tier is None:
+        raise CupelError("name the cases to keep, or give --tier", status=2)
+    chosen = case_files.select_members(names, tier and tier.value, level.value)
+    solvers = SOLVERS if solver is Solver.both else (solver.value,)
+    for folder in keep_results(results_root(results), chosen, solvers, level.value):
+        print(folder)
+    return 0
+
+
+@app.command()
 def report(
     names: Optional[List[str]] = typer.Argument(None, metavar="[CASE]...", help="Cases; none: all that have results."),
     variant: Optional[str] = typer.Option(None, metavar="NAME", help="Variant; default: coarse."),

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import CupelError
-from .layout import ResultPlace, places
-from .results import finite, read_result, write_result
+from .layout import SOLVERS, ResultPlace, places
+from .results import finite, read_kept, read_result, write_result
 
 # What every run must keep, whatever it computes: ledger, entry, name of the row, limit for each solver, where it is asked.
 LEDGER_LIMITS = (
@@ -92,32 +92,45 @@ def ledger_measures(result: dict) -> list[dict]:
 def fill_solver_references(root: Path, case: str, variant: str) -> None:
     """Gives measures whose reference is another solver the value that this solver measured, and judges them again.
 
-    A missing or failed result of the other solver leaves the reference empty. Results are rewritten only on change.
+    A missing or failed result of the other solver leaves the reference empty; where it has not been run, its kept result
+    stands in. Results are rewritten only on change.
     """
-    results = {}
+    values = solver_values(root, case, variant)
     for place in places(root, [case], variants=[variant]):
         try:
             result = read_result(place)
         except CupelError:
             continue
-        if result is not None:
-            results[place] = result
-    values = {
-        (result["solver"], measure["name"]): measure["value"]
-        for result in results.values() if result["status"] == "completed"
-        for measure in result["measures"]
-    }
-    for place, result in results.items():
-        measures = []
-        for measure in result["measures"]:
-            if measure["reference_kind"] == "solver":
-                other = measure.get("reference_solver", "openfoam")
-                own = other == result["solver"]
-                reference = None if own else values.get((other, measure["name"]))
-                measure = judge(measure | {"reference": reference, "reference_solver": other}, is_reference=own)
-            measures.append(measure)
-        if measures != result["measures"]:
-            write_result(place.folder, result | {"measures": measures})
+        filled = result and with_solver_references(result, values)
+        if result is not None and filled != result:
+            write_result(place.folder, filled)
+
+
+def solver_values(root: Path, case: str, variant: str) -> dict[tuple[str, str], float | None]:
+    """(solver, measure) → value of the completed results of a case, kept ones where there is no fresh one."""
+    found = {}
+    for solver in dict.fromkeys([*SOLVERS, *(place.solver for place in places(root, [case], variants=[variant]))]):
+        place = ResultPlace(root, case, solver, variant)
+        try:
+            result = read_result(place) if place.folder.exists() else read_kept(case, solver, variant)
+        except CupelError:
+            continue
+        if result is not None and result["status"] == "completed":
+            found |= {(solver, measure["name"]): measure["value"] for measure in result["measures"]}
+    return found
+
+
+def with_solver_references(result: dict, values: dict[tuple[str, str], float | None]) -> dict:
+    """The result with its measures judged against the other solvers' `values` where these are their references."""
+    measures = []
+    for measure in result["measures"]:
+        if measure["reference_kind"] == "solver":
+            other = measure.get("reference_solver", "openfoam")
+            own = other == result["solver"]
+            reference = None if own else values.get((other, measure["name"]))
+            measure = judge(measure | {"reference": reference, "reference_solver": other}, is_reference=own)
+        measures.append(measure)
+    return result | {"measures": measures}
 
 
 def rows_of(result: dict) -> list[Row]:
@@ -144,23 +157,6 @@ def rows_of(result: dict) -> list[Row]:
 def missing_row(case: str, solver: str, variant: str, note: str, verdict: str = "missing") -> Row:
     """A row that stands for a whole result that is not there or not good."""
     return Row(case, solver, variant, "run", None, "", None, None, "", None, None, None, verdict, note)
-
-
-def rows_at(place: ResultPlace) -> tuple[dict | None, list[Row]]:
-    """Result and rows at `place`; a missing or unreadable result gives a row that says so."""
-    identity = (place.case, place.solver, place.variant)
-    try:
-        result = read_result(place)
-    except CupelError as error:
-        return None, [missing_row(*identity, str(error), verdict="fail")]
-    if result is None:
-        note = "not run yet"
-        if (place.folder / "run.json").exists():
-            note = "run, but not measured (messages.txt beside it says why; --resume measures again)"
-        elif (place.folder / "launch.json").exists():
-            note = "not finished (--resume goes on)"
-        return None, [missing_row(*identity, note)]
-    return result, rows_of(result)
 
 
 def power_trend_rows(results: list[dict]) -> list[Row]:

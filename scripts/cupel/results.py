@@ -12,7 +12,7 @@ from pathlib import Path
 import jsonschema
 
 from .errors import CupelError, describe_system_error
-from .layout import ResultPlace
+from .layout import CASES, ResultPlace
 
 SCHEMA_FILE = Path(__file__).parent / "schema" / "result.schema.json"
 
@@ -95,6 +95,39 @@ def read_result(place: ResultPlace) -> dict | None:
         if result[key] != getattr(place, key):
             raise CupelError(f"{path}: {key} is '{result[key]}', but the folder says '{getattr(place, key)}'")
     return result
+
+
+def kept_folder(case: str) -> Path | None:
+    """Where kept results of a case (or of CASE_VARIATION) are or would be; None if no case folder has that name."""
+    if (CASES / case).is_dir():
+        return CASES / case / "kept"
+    owners = [folder for folder in CASES.glob("*/") if case.startswith(f"{folder.name}_") and (folder / "case.toml").exists()]
+    folders = [owner / "kept" / case.removeprefix(f"{owner.name}_") for owner in owners]
+    there = [folder for folder in folders if folder.is_dir()]
+    return (there or folders or [None])[0]
+
+
+def read_kept(case: str, solver: str, level: str) -> dict | None:
+    """A kept result, or None if there is none; `CupelError` if it cannot be trusted."""
+    folder = kept_folder(case)
+    path = folder / solver / level / "result.json" if folder else None
+    if path is None or not path.exists():
+        return None
+    result = check_result(read_json(path), path)
+    for key, name in (("case", case), ("solver", solver), ("variant", level)):
+        if result[key] != name:
+            raise CupelError(f"{path}: {key} is '{result[key]}', but the folder says '{name}'")
+    return result
+
+
+def kept_cases(level: str) -> set[str]:
+    """Names of the cases that have a kept result at `level`."""
+    found = set()
+    for path in CASES.glob(f"*/kept/**/{level}/result.json"):
+        owner = path.relative_to(CASES).parts[0]
+        variation = path.parent.parent.parent.relative_to(CASES / owner / "kept").parts
+        found.add("_".join((owner, *variation)))
+    return found
 
 
 def move_aside(place: ResultPlace) -> None:

@@ -41,6 +41,15 @@ double length_of(const std::array<double, 3>& a)
     return std::hypot(a[0], a[1], a[2]);
 }
 
+/// Greatest gradient of the temperature at the start, K/m; that of a hot spot is 2 exp(-1/2) rise / radius.
+double steepest_gradient(const Initial& initial)
+{
+    double gradient = length_of(initial.temperature_gradient);
+    if (initial.hot_spot)
+        gradient += 2.0 * std::exp(-0.5) * std::abs(initial.hot_spot->rise) / initial.hot_spot->radius;
+    return gradient;
+}
+
 } // namespace
 
 FlowParameters derive_flow_parameters(const Scene& scene)
@@ -64,6 +73,9 @@ FlowParameters derive_flow_parameters(const Scene& scene)
         consider(std::sqrt(10.0 * liquid.surface_tension.value() / (liquid.density * length)), "surface tension");
     if (definition.requires_physics("gravity"))
         consider(std::sqrt(length_of(definition.gravity) * liquid_height(definition)), "gravity");
+    if (definition.initial.velocity) consider(definition.initial.velocity->speed, "velocity at the start");
+    for (const auto& boundary : definition.domain.boundaries)
+        if (boundary) consider(length_of(boundary->velocity), "moving wall");
     if (definition.requires_physics("marangoni")) {
         const double slope = std::abs(liquid.surface_tension_slope.value());
         if (definition.laser)
@@ -71,8 +83,7 @@ FlowParameters derive_flow_parameters(const Scene& scene)
                                (liquid.density * length)),
                      "Marangoni stress");
         else
-            consider(slope * length_of(definition.initial.temperature_gradient) * length /
-                         (4.0 * liquid.viscosity.value()),
+            consider(slope * steepest_gradient(definition.initial) * length / (4.0 * liquid.viscosity.value()),
                      "Marangoni stress");
     }
     // The speed that the recoil at the boiling point, 0.54 p₀ (Anisimov), drives (Bernoulli).

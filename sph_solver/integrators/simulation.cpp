@@ -37,7 +37,8 @@ Simulation::Simulation(Scene scene)
     : scene_(std::move(scene)), mobility_(scene_.particles->add_scalar({"mobility", "1"})),
       has_flow_(scene_.definition.requires_physics("flow")), has_heat_(scene_.definition.requires_physics("heat")),
       melts_(has_heat_ && scene_.definition.requires_physics("melting")),
-      frozen_temperature_(!has_heat_ && scene_.definition.requires_physics("marangoni")),
+      frozen_temperature_(!has_heat_ && (scene_.definition.requires_physics("marangoni") ||
+                                         scene_.definition.requires_physics("recoil"))),
       parameters_(parameters_of(scene_, has_flow_)),
       limits_(has_flow_ ? derive_time_step_limits(scene_, parameters_) : TimeStepLimits{}),
       neighbourhood_(support_of(scene_, parameters_), scene_.definition.numerics.skin * scene_.spacing, scene_.spacing,

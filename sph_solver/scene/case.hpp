@@ -69,9 +69,9 @@ enum class BoundaryKind { wall, symmetry, open, periodic };
 struct Boundary
 {
     BoundaryKind kind = BoundaryKind::wall;
-    bool no_slip = true;               ///< walls only
-    Vector3 velocity{};                ///< of a wall without slip, along itself [m/s]
-    std::optional<double> temperature; ///< [K]; empty = adiabatic
+    bool no_slip = true;                 ///< walls only
+    std::optional<double> temperature{}; ///< [K]; empty = adiabatic
+    Vector3 velocity{};                  ///< of a wall without slip, along itself [m/s]
 };
 
 /// Index of a side of the domain in Domain::boundaries.

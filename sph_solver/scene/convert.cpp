@@ -129,8 +129,9 @@ json time_window(const Node& node, const std::string& path)
             refuse(item.position, key, "is before the start", "write a time from 0 s on, or \"end\"");
         return time < 0 ? json("end") : json(time);
     });
-    if (values.size() != 2 || values[0] == "end")
-        refuse(node.position, path, "is no pair of times", "write for example [\"1 ms\", \"end\"]");
+    if (values.size() != 2 || (values[0] == "end" && values[1] != "end"))
+        refuse(node.position, path, "is no pair of times",
+               "write for example [\"1 ms\", \"end\"], or [\"end\", \"end\"] for the last snapshot");
     return values;
 }
 

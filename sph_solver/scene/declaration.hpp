@@ -23,7 +23,7 @@ enum class Type {
     choice,       ///< one of `choices`
     choice_list,  ///< list of some of `choices`, none twice
     file,         ///< path relative to the file in which it stands
-    time_window,  ///< two times, of which the second may be "end"
+    time_window,  ///< two times, of which the second or both may be "end"
     any_quantity, ///< quantity whose unit follows from another key of the same table
     by_level,     ///< any_quantity, or a table of one a level
 };

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <random>
 
 #include "scene/powder_bed.hpp"
+#include "scene/shape.hpp"
 
 namespace cupel
 {
@@ -50,10 +52,9 @@ Lattice make_lattice(const Case& definition)
             {cells(0), definition.dimensions == 2 ? 1 : cells(1), cells(2)}};
 }
 
-bool inside_box(const Body& body, const Vector& p, bool flat)
+std::array<double, 3> to_array(const Vector& a)
 {
-    return p.x >= body.lower[0] && p.x < body.upper[0] && p.z >= body.lower[2] && p.z < body.upper[2] &&
-           (flat || (p.y >= body.lower[1] && p.y < body.upper[1]));
+    return {a.x, a.y, a.z};
 }
 
 bool inside_sphere(const Vector& center, double radius, const Vector& p)
@@ -112,27 +113,51 @@ Vector to_vector(const std::array<double, 3>& a)
     return {a[0], a[1], a[2]};
 }
 
-void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, bool flat)
+void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, int dimensions)
 {
-    const Vector lower = to_vector(body.lower), upper = to_vector(body.upper), center = to_vector(body.center);
-    const auto fill_ball = [&](const Vector& middle, double radius) {
+    const Vector center = to_vector(body.center);
+    const auto inside = [&](const Vector& p) { return contains_undisturbed(body, to_array(p), dimensions); };
+    const auto fill_within = [&](const Vector& middle, double radius, const auto& inside_ball) {
         const Vector reach{radius, radius, radius};
-        grid.fill(middle - reach, middle + reach, filling,
-                  [&](const Vector& p) { return inside_sphere(middle, radius, p); });
+        grid.fill(middle - reach, middle + reach, filling, inside_ball);
     };
     switch (body.shape) {
     case BodyShape::box:
-        grid.fill(lower, upper, filling, [&](const Vector& p) { return inside_box(body, p, flat); });
+        grid.fill(to_vector(body.lower), to_vector(body.upper), filling, inside);
         break;
     case BodyShape::sphere:
-        fill_ball(flat ? Vector{center.x, 0.0, center.z} : center, body.radius);
+        fill_within(center, body.radius, inside);
         break;
-    case BodyShape::powder_bed:
+    case BodyShape::powder_bed: {
+        Body box = body;
+        box.shape = BodyShape::box;
         for (const auto& grain : read_powder_bed(body.file))
-            if (inside_box(body, to_vector(grain.center), flat)) fill_ball(to_vector(grain.center), grain.radius);
+            if (contains_undisturbed(box, grain.center, dimensions))
+                fill_within(to_vector(grain.center), grain.radius,
+                            [&](const Vector& p) { return inside_sphere(to_vector(grain.center), grain.radius, p); });
         break;
     }
+    }
 }
+
+/// Random numbers from -1 to 1, the same ones on every machine.
+class Jitter
+{
+public:
+    explicit Jitter(bool flat) : flat_(flat) {}
+
+    Vector next()
+    {
+        const double x = one(), z = one();
+        return {x, flat_ ? 0.0 : one(), z};
+    }
+
+private:
+    double one() { return 2.0 * (static_cast<double>(generator_()) / 4294967295.0) - 1.0; }
+
+    std::mt19937 generator_{1};
+    bool flat_;
+};
 
 struct Placement
 {
@@ -143,6 +168,27 @@ struct Placement
     bool free_slip;
     std::optional<std::array<int, 3>> parent_cell;
 };
+
+/// Moves the particles of the undisturbed bodies to where a perturbation or a wave has them, and by random amounts
+/// where the case asks for it. Masses stay what they are.
+void disturb(const Case& definition, std::vector<Placement>& placements)
+{
+    std::vector<const Body*> disturbed;
+    for (const Body& body : definition.bodies)
+        if (body.perturbation || body.surface_wave) disturbed.push_back(&body);
+    const double scatter = definition.numerics.position_jitter * definition.spacing;
+    Jitter jitter(definition.dimensions == 2);
+    for (Placement& placement : placements) {
+        if (placement.kind == Kind::wall) continue;
+        Vector moved = placement.position;
+        if (placement.kind == Kind::fluid)
+            for (const Body* body : disturbed)
+                moved += to_vector(
+                    displacement(*body, definition.domain, to_array(placement.position), definition.dimensions));
+        if (scatter > 0) moved += scatter * jitter.next();
+        placement.position = moved;
+    }
+}
 
 /// Wall particles fill the shell of lattice points around the domain that lie behind walls only.
 void place_walls(const Case& definition, const Lattice& lattice, std::vector<Placement>& placements)
@@ -216,7 +262,8 @@ Scene place_particles(const Case& definition)
     bool any_fluid = scene.two_phase;
     for (const Body& body : definition.bodies) {
         any_fluid = any_fluid || !body.solid;
-        fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)}, flat);
+        fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)},
+                  definition.dimensions);
     }
 
     std::vector<Placement> placements;
@@ -229,6 +276,7 @@ Scene place_particles(const Case& definition)
     if (placements.empty())
         throw CaseError("resolution: no particle fits into any body at a spacing of " +
                         std::to_string(definition.spacing) + " m; choose a finer one");
+    disturb(definition, placements);
     // A scene that is solid to its borders needs no walls: nothing molten reaches them.
     if (any_fluid) place_walls(definition, lattice, placements);
 
@@ -251,6 +299,8 @@ Scene place_particles(const Case& definition)
         particles.kind[k] = placement.kind;
         particles.material[k] = placement.material;
         particles.position.set(i, placement.position);
+        if (definition.initial.velocity && placement.kind == Kind::fluid)
+            particles.velocity.set(i, to_vector(definition.initial.velocity->velocity(to_array(placement.position))));
         const double density = scene.materials[placement.material].density;
         particles.density[i] = density;
         particles.volume[i] = volume;

@@ -153,7 +153,7 @@ const MeasureDeclaration& measure_of(const std::string& name)
 /// Windows are cut at the end of the run, so that a run shortened by an override measures its last moment.
 json resolved_window(const json& between, double end, const Node& document, const std::string& key)
 {
-    const double start = between[0];
+    const double start = between[0] == "end" ? end : between[0].get<double>();
     const double stop = between[1] == "end" ? std::max(start, end) : between[1].get<double>();
     if (stop < start)
         refuse(node_at(document, key).position, key, "ends before it begins", "write the earlier time first");

@@ -44,6 +44,11 @@ void check_physics(const json& values, const Node& document)
     if (names_physics(values, "laser") && !values.contains("laser"))
         refuse_at(document, "laser", "is missing, the physics name a laser",
                   "add [laser] or take 'laser' out of physics");
+    for (const char* physics : {"recoil", "evaporation", "radiation"})
+        if (names_physics(values, physics) && !values.contains("surrounding"))
+            refuse_at(document, "surrounding",
+                      std::string("is missing, physics '") + physics + "' needs its pressure or temperature",
+                      "add [surrounding]");
     const json& gradient = values.at("initial").at("temperature_gradient");
     const bool uniform = std::all_of(gradient.begin(), gradient.end(), [](const json& part) { return part == 0.0; });
     if (names_physics(values, "marangoni") && !names_physics(values, "heat") && uniform &&

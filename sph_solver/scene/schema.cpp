@@ -163,7 +163,7 @@ std::string kind_of(const Parameter& parameter)
     case Type::choice_list:
         return "some of " + joined(parameter.choices);
     case Type::time_window:
-        return "two times, or time and \"end\"";
+        return "two times, either of which may be \"end\"";
     case Type::any_quantity:
         return "number with the measure's unit";
     case Type::by_level:

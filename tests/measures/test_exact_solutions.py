@@ -130,6 +130,33 @@ def test_viscous_modes_of_a_sphere_satisfy_the_equation_of_chandrasekhar():
         assert abs(left - right) < 1e-9 * abs(right), (left, right)
 
 
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_drop_in_almost_nothing_is_one_in_vacuum_and_in_a_fluid_of_little_viscosity_has_lambs_frequency(dimensions):
+    vacuum = oscillating_drop.viscous_mode(1.0, 1.0, 1.0, 0.05, 2, dimensions)
+    assert oscillating_drop.viscous_mode(1.0, 1.0, 1.0, 0.05, 2, dimensions, 1e-9, 1e-9) == pytest.approx(vacuum, rel=1e-5)
+    omega, decay = oscillating_drop.viscous_mode(1.0, 1.0, 1.0, 1e-8, 3, dimensions, 0.7, 2e-8)
+    assert omega == pytest.approx(oscillating_drop.frequency(1.0, 1.0, 1.0, 3, dimensions, 0.7), rel=1e-4) and 0.0 < decay < 1e-3
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_high_modes_of_a_drop_in_its_own_fluid_are_plane_capillary_waves(dimensions):
+    """Prosperetti 1981: root of a quartic for two fluids of the same kinematic viscosity, b = rho_1 rho_2/(rho_1 + rho_2)^2 = 1/4."""
+    mode, viscosity = 300, 2e-3
+    k = mode if dimensions == 2 else mode + 0.5
+    omega_0, nu_k2, b = np.sqrt(0.5 * k**3), viscosity * k**2, 0.25
+    roots = np.roots([1.0, -4.0 * b * nu_k2**0.5, 2.0 * (1.0 - 6.0 * b) * nu_k2, 4.0 * (1.0 - 3.0 * b) * nu_k2**1.5,
+                      (1.0 - 4.0 * b) * nu_k2**2 + omega_0**2])
+    s = max((z**2 - nu_k2 for z in roots if z.real < 0.0), key=lambda rate: rate.imag)
+    omega, decay = oscillating_drop.viscous_mode(1.0, 1.0, 1.0, viscosity, mode, dimensions, 1.0, viscosity)
+    assert (omega, decay) == pytest.approx((s.imag, -s.real), rel=0.01)
+
+
+def test_air_around_a_drop_of_water_slows_it_by_a_fifth_of_a_percent():
+    vacuum, _ = oscillating_drop.viscous_mode(1.0, 1.0, 1.0, 0.05, 2, 2)
+    air, _ = oscillating_drop.viscous_mode(1.0, 1.0, 1.0, 0.05, 2, 2, 1e-3, 0.05 / 55.0)
+    assert air / vacuum - 1.0 == pytest.approx(-0.00226, abs=2e-5)
+
+
 @pytest.mark.parametrize("dimensions, viscosity", [(2, 0.05), (3, 0.05), (2, 1e-3)])
 def test_released_drop_starts_at_rest_and_ends_in_the_normal_mode(dimensions, viscosity):
     drop = (1.0, 1.0, 1.0, viscosity, 2, dimensions)

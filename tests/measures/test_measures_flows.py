@@ -235,31 +235,34 @@ HOT = {"density": 6900.0, "viscosity": 6e-3, "surface_tension": 1.2, "boiling_te
 SPOT = {"center": [0.0, 0.0, 0.0], "radius": 8e-5, "rise": 1100.0}
 
 
-def dented_surface(dimensions, warm=1650.0, count=4001):
+def dented_surface(dimensions, tension_of, pulls_along, warm=1650.0, count=4001):
     """r (n), height (n) of a surface at rest under the spot's recoil, and the pressure of the liquid under it; axial in 3-D.
 
-    sigma d(sin phi)/dr (+ sigma sin phi/r) = p_r - p, phi(0) = 0; p chosen so that the surface is flat at r = 2.5 spot radii.
+    sigma (d sin(phi)/dr [+ sin(phi)/r]) = p_r - p, or with sigma inside the derivative where Marangoni stress pulls along; phi(0) = 0;
+    p chosen so that the surface is flat at r = 2.5 spot radii.
     """
     r = np.linspace(0.0, 2.5 * SPOT["radius"], count)
     temperature = warm + SPOT["rise"] * np.exp(-2.0 * r**2 / SPOT["radius"]**2)
-    push = recoil.recoil_pressure(temperature, 3050.0, 6.1e6, 0.0558, 101325.0)
+    push, tension = recoil.recoil_pressure(temperature, 3050.0, 6.1e6, 0.0558, 101325.0), tension_of(temperature)
     weight = r if dimensions == 3 else np.ones(count)
-    gathered = np.concatenate([[0.0], np.cumsum(0.5 * (weight[1:] * push[1:] + weight[:-1] * push[:-1]) * np.diff(r))])
-    area = 0.5 * r**2 if dimensions == 3 else r
-    pressure = gathered[-1] / area[-1]
-    sine = (gathered - pressure * area) / (1.2 * np.maximum(weight * (1.0 if dimensions == 2 else 1.0), 1e-300))
+    share = np.ones(count) if pulls_along else 1.0 / tension
+
+    def gathered(values):
+        return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(r))])
+
+    pressure = gathered(weight * push * share)[-1] / gathered(weight * share)[-1]
+    sine = gathered(weight * (push - pressure) * share) / np.maximum(weight, 1e-300) / (tension if pulls_along else 1.0)
     sine[0] = 0.0
-    slope = sine / np.sqrt(1.0 - sine**2)
-    height = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(r))])
+    height = gathered(sine / np.sqrt(1.0 - sine**2))
     return r, height - height[-1], pressure
 
 
-def recoil_snapshot(form, dimensions, spacing=5e-6, pressure_factor=1.0, tension=1.2):
+def recoil_snapshot(form, dimensions, pressure_factor=1.0, tension_factor=1.0, slope=0.0, pulls_along=False, spacing=5e-6):
     half = 2.4e-4 if dimensions == 2 else 1.3e-4
     depth = 1.2e-4
     lower = np.array([-half, 0.0 if dimensions == 2 else -half, -depth])
     upper = np.array([half, 0.0 if dimensions == 2 else half, 6e-5])
-    r, surface, pressure = dented_surface(dimensions)
+    r, surface, pressure = dented_surface(dimensions, lambda T: 1.2 + slope * (T - 1723.0), pulls_along)
     assert surface.min() < -0.9 * spacing     # a dent that the elements can see
 
     def inside(points):
@@ -275,7 +278,9 @@ def recoil_snapshot(form, dimensions, spacing=5e-6, pressure_factor=1.0, tension
         made = replace(made, volume=made.volume * (1.0 + top / depth))
     away = np.linalg.norm(made.position[:, :dimensions - 1], axis=1)
     temperature = 1650.0 + SPOT["rise"] * np.exp(-2.0 * away**2 / SPOT["radius"]**2)
-    case = scene(spacing, dimensions, list(lower), list(upper), materials={"liquid": HOT | {"surface_tension": tension}},
+    material = HOT | {"surface_tension": 1.2 * tension_factor, "surface_tension_slope": slope, "surface_tension_reference_temperature": 1723.0}
+    case = scene(spacing, dimensions, list(lower), list(upper), materials={"liquid": material},
+                 physics=["flow", "surface_tension", "recoil"] + (["marangoni"] if pulls_along else []),
                  bodies=[{"shape": "box", "material": "liquid", "lower": list(lower), "upper": [upper[0], upper[1], 0.0]}],
                  surrounding={"material": "gas", "resolved": False, "pressure": 101325.0},
                  initial={"temperature": 1650.0, "temperature_gradient": [0, 0, 0], "hot_spot": SPOT})
@@ -291,12 +296,21 @@ def test_a_surface_in_balance_has_no_recoil_error(form, dimensions):
     assert reading.beside["surface_tension_N"] > 0.1 * reading.beside["recoil_N"]
 
 
+@pytest.mark.parametrize("pulls_along", [False, True])
+def test_tension_that_falls_with_temperature_is_counted_as_the_physics_have_it(pulls_along):
+    chosen = find_measure("recoil_balance_error")
+    snapshot = recoil_snapshot("cells", 2, slope=-4.3e-4, pulls_along=pulls_along)
+    assert chosen.read(snapshot).value < 0.01
+    other = dict(snapshot.case, physics=["flow"] if pulls_along else ["flow", "marangoni"])
+    assert chosen.read(Snapshot(snapshot.elements, other)).value > 0.03
+
+
 def test_a_wrong_pressure_or_tension_is_an_error_of_its_share():
     chosen = find_measure("recoil_balance_error")
     right = chosen.read(recoil_snapshot("cells", 2)).beside
     off = chosen.read(recoil_snapshot("cells", 2, pressure_factor=1.3)).value
     assert off == pytest.approx(0.3 * right["liquid_pressure_N"] / right["recoil_N"], abs=0.012)
-    weak = chosen.read(recoil_snapshot("cells", 2, tension=0.9)).value
+    weak = chosen.read(recoil_snapshot("cells", 2, tension_factor=0.75)).value
     assert weak == pytest.approx(0.25 * right["surface_tension_N"] / right["recoil_N"], abs=0.012)
 
 

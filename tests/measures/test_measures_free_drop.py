@@ -64,6 +64,13 @@ def oscillating(form, case, periods=4.0, snapshots=80, a=0.01):
     return [shaped(form, case["dimensions"], amplitude=a * value, time=time, seed=1) for time, value in zip(times, exact)]
 
 
+def test_a_resolved_surrounding_takes_part_in_the_reference():
+    free, heavy = drop_scene(), drop_scene(resolved=True)
+    heavy["materials"]["gas"] = {"density": 0.5, "viscosity": 0.1}
+    assert normal_mode(heavy)[0] < 0.85 * normal_mode(free)[0]
+    assert find_measure("oscillation_period").exact(heavy) == pytest.approx(np.sqrt(1.5) * find_measure("oscillation_period").exact(free))
+
+
 def requests(case, *names):
     end = case["time"]["end"]
     return [{"name": name, "unit": "", "between": [0.0, end], "tolerance": 0.005, "metric": "relative",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from cupel.comparison import Row
+from reports import formatting
 from reports.formatting import number, present, quantity, scale_of
 
 
@@ -30,3 +31,14 @@ def test_value_reference_error_and_tolerance_share_a_scale():
 def test_relative_errors_are_in_percent():
     row = Row("c", "sph", "coarse", "base_radius", 1.0, "m", 1.02, "exact", "cap", -0.0196, "relative", 0.06, "pass")
     assert (present(row)["error"], present(row)["tolerance"]) == ("−1.96 %", "± 6 %")
+
+
+def test_a_value_has_the_decimals_of_its_uncertainty():
+    assert formatting.uncertain(2.42612345, 0.0028, "rad/s") == "2.4261 ± 0.0028 rad/s"
+    assert formatting.uncertain(24158.2, 201.0, "Pa") == "24158 ± 201 Pa"
+    assert formatting.uncertain(1.07e-4, 1.3e-4, "1") == "1.07·10⁻⁴ ± 1.3·10⁻⁴"
+    assert formatting.uncertain(-0.5236, 0.006, "rad") == "−30.00 ± 0.34°"
+
+
+def test_positive_errors_have_a_sign_and_zero_has_none():
+    assert (formatting.signed("0.298°"), formatting.signed("−0.2"), formatting.signed("0")) == ("+0.298°", "−0.2", "0")

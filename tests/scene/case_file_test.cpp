@@ -203,6 +203,7 @@ TEST(Physics, NeedsWhatItRestsOn)
     EXPECT_THAT(with("[\"flow\", \"wetting\"]"), HasSubstr("'wetting' needs 'surface_tension'"));
     EXPECT_THAT(with("[\"flow\", \"laser\"]"), HasSubstr("'laser' needs 'heat'"));
     EXPECT_THAT(with("[\"heat\", \"recoil\"]"), HasSubstr("'recoil' needs 'flow'"));
+    EXPECT_THAT(with("[\"flow\", \"recoil\"]"), HasSubstr("surrounding: is missing, physics 'recoil' needs"));
     EXPECT_THAT(with("[\"flow\", \"melting\"]"), HasSubstr("'melting' needs 'heat'"));
     EXPECT_THAT(with("[\"surface_tension\"]"), HasSubstr("'surface_tension' needs 'flow'"));
     EXPECT_THAT(with("[\"flow\", \"gravity\"]"), HasSubstr("gravity: is missing"));

@@ -166,6 +166,18 @@ TEST(Measures, WindowIsCutAtTheEndOfTheRun)
     EXPECT_EQ(measure.at("between"), nlohmann::json::array({1e-3, 1e-3}));
 }
 
+TEST(Measures, LastSnapshotIsAWindow)
+{
+    const auto window = [](const std::string& between) {
+        return resolved(drop_case + "[[measure]]\nname = \"base_radius\"\nbetween = " + between + "\n")
+            .at("measures")[0]
+            .at("between");
+    };
+    EXPECT_EQ(window("[\"end\", \"end\"]"), nlohmann::json::array({1e-3, 1e-3}));
+    EXPECT_THAT(refusal(drop_case + "[[measure]]\nname = \"base_radius\"\nbetween = [\"end\", \"1 s\"]\n"),
+                HasSubstr("is no pair of times"));
+}
+
 TEST(Measures, ToleranceTellsTheMetric)
 {
     const nlohmann::json measures = resolve_case(canonical("droplet_wetting"), {}).at("measures");

@@ -7,7 +7,7 @@ period or so: a drop released from rest is not yet its normal mode.
     oscillation_decay       1/s, the same
     oscillation_period      s, reference: 2 pi/omega without viscosity (Rayleigh; Lamb)
 
-All references are those of a drop in vacuum.
+References are those of a drop in an unbounded fluid where the case resolves its surrounding, and in vacuum where it does not.
 """
 
 from __future__ import annotations
@@ -18,21 +18,29 @@ from ..exact import oscillating_drop as exact
 from .drop import drop_of, drop_state, shape_amplitude
 from .history import GREATEST_RESIDUAL, Oscillation, Sample, arrays, damped_oscillation, too_few
 from .registry import MeasureError, Reading, measure_of_snapshot
-from .snapshot import Snapshot
+from .snapshot import Snapshot, look_up
 
 
 def inviscid_frequency(case: dict) -> float:
     """Angular frequency (rad/s) of the case's drop without viscosity."""
     drop = drop_of(case, "surface_tension", "density")
-    return exact.frequency(drop.material["surface_tension"], drop.material["density"], drop.radius, drop.mode, drop.dimensions)
+    return exact.frequency(drop.material["surface_tension"], drop.material["density"], drop.radius, drop.mode, drop.dimensions,
+                           _around(case, "density"))
+
+
+def _around(case: dict, key: str) -> float:
+    """A property of the surrounding; 0 where the case does not resolve it."""
+    surrounding = case.get("surrounding") or {}
+    return float(look_up(case, "materials", surrounding["material"], key)) if surrounding.get("resolved") else 0.0
 
 
 def normal_mode(case: dict) -> tuple[float, float]:
-    """Angular frequency (rad/s) and decay rate (1/s) of the case's drop in vacuum."""
+    """Angular frequency (rad/s) and decay rate (1/s) of the case's drop."""
     drop = drop_of(case, "surface_tension", "density", "viscosity")
     try:
         return exact.viscous_mode(drop.material["surface_tension"], drop.material["density"], drop.radius,
-                                  drop.material["viscosity"], drop.mode, drop.dimensions)
+                                  drop.material["viscosity"], drop.mode, drop.dimensions, _around(case, "density"),
+                                  _around(case, "viscosity"))
     except ValueError as problem:
         raise MeasureError(f"resolved case: {problem}") from None
 

@@ -2,11 +2,13 @@
 
 The balance of forces along z (exact/recoil.py), weighted with w(r) = cos^2(pi r/2b) over the footprint r < b, b the spot's radius:
 
-    recoil_balance_error   | integral of w (p_r(T) - p) dA - integral of sigma(T) sin(phi) (-dw/dr) dA | / integral of w p_r dA
+    recoil_balance_error   | integral of w (p_r(T) - p) dA - S | / integral of w p_r dA
+    S                      - integral of t . grad(w sigma(T)) dA, the push of sigma kappa along the normal, or, where Marangoni stress
+                           is among the physics and pulls along the surface too, - integral of sigma(T) t . grad(w) dA
 
     p       mean pressure of the liquid 3 to 6 spacings under the surface, less that of the surrounding's elements (0 without)
     T       on the surface density = 1/2, column by column of the resampling grid (fields.py)
-    sin phi outward slope of the surface over its length, its height from the contents of each column 3 spacings around it
+    t       grad(z)/sqrt(1 + grad(z)^2), slope of the surface; its height z from the contents of each column 3 spacings around it
 
 By parts, so that nothing is fitted to a curvature; w spreads the slope over the footprint, where steps of single elements cancel.
 Reference 0.
@@ -98,18 +100,27 @@ def recoil_balance_error(snapshot: Snapshot) -> Reading:
     pressure = _pressure_under(snapshot, surface, radius)
     if pressure is None:
         return Reading(None, note="the liquid under the hot spot is not three spacings deep")
-    r, temperature, slope, aside = r[inside], surface.temperature[inside], surface.slope[inside], surface.aside[inside]
-    weight = np.cos(0.5 * np.pi * r / radius)**2 * surface.column
-    fall = 0.5 * np.pi / radius * np.sin(np.pi * r / radius) * surface.column
-    outward = (slope * aside).sum(axis=-1) / np.maximum(r, 1e-300)
-    sine = outward / np.sqrt(1.0 + (slope**2).sum(axis=-1))
-    recoil = recoil_pressure(temperature, material["boiling_temperature"], material["vaporization_heat"],
+    weight = np.where(inside, np.cos(0.5 * np.pi * np.minimum(r / radius, 1.0))**2, 0.0)
+    recoil = recoil_pressure(surface.temperature[inside], material["boiling_temperature"], material["vaporization_heat"],
                              material["molar_mass"], ambient)
-    push, hold = float((weight * recoil).sum()), float((fall * sine * _tension(material, temperature)).sum())
-    bear = pressure * float(weight.sum())
+    push, bear = float((weight[inside] * recoil).sum()) * surface.column, pressure * float(weight.sum()) * surface.column
+    hold = _held(surface, weight, _tension(material, surface.temperature), "marangoni" in case["physics"])
     return Reading(abs(push - bear - hold) / push,
                    beside={"recoil_N": push, "liquid_pressure_N": bear, "surface_tension_N": hold,
-                           "greatest_temperature_K": float(temperature.max())})
+                           "greatest_temperature_K": float(surface.temperature[inside].max())})
+
+
+def _held(surface: Surface, weight: np.ndarray, tension: np.ndarray, pulls_along: bool) -> float:
+    """Force of surface tension along z, weighted, on the columns of the footprint (N; N/m in 2-D)."""
+    step = surface.column**(1.0 / surface.height.ndim)
+    sine = surface.slope / np.sqrt(1.0 + (surface.slope**2).sum(axis=-1, keepdims=True))
+    weighted = weight if pulls_along else weight * tension
+    total = 0.0
+    for k in range(surface.height.ndim):
+        change = np.gradient(np.where(weight > 0.0, weighted, 0.0), step, axis=k) * (tension if pulls_along else 1.0)
+        used = change != 0.0
+        total -= float((sine[..., k][used] * change[used]).sum()) * surface.column
+    return total
 
 
 def _tension(material: dict, temperature: np.ndarray) -> np.ndarray:

@@ -1,0 +1,117 @@
+/// Where the particles of a case start: displaced by perturbations and waves, jittered, moving.
+#include "scene/place_particles.hpp"
+
+#include "small_scenes.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace cupel
+{
+namespace
+{
+
+/// A disc or ball of R = 1 in the middle of a box, `n` spacings a diameter.
+Case drop(int dimensions, int n, std::optional<Perturbation> perturbation)
+{
+    Case definition = small_scenes::pool(dimensions, 2.0 / n);
+    definition.domain.lower = {-2, dimensions == 2 ? 0.0 : -2, -2};
+    definition.domain.upper = {2, dimensions == 2 ? 0.0 : 2, 2};
+    for (auto& boundary : definition.domain.boundaries)
+        if (boundary) boundary->kind = BoundaryKind::open;
+    Body body;
+    body.shape = BodyShape::sphere;
+    body.material = "liquid";
+    body.radius = 1;
+    body.perturbation = perturbation;
+    definition.bodies = {body};
+    return definition;
+}
+
+/// Mean over the particles of the moment of a shape: Re(z + i x)^2 in 2-D, 3 z^2 - r^2 in 3-D.
+double second_moment(const Particles& particles, int dimensions)
+{
+    double sum = 0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector p = particles.position[i];
+        sum += dimensions == 2 ? p.z * p.z - p.x * p.x : 2 * p.z * p.z - p.x * p.x - p.y * p.y;
+    }
+    return sum / particles.count();
+}
+
+TEST(Placement, PerturbedDropHasTheMomentOfItsMode)
+{
+    const double a = 0.01;
+    for (const int dimensions : {2, 3}) {
+        const Scene round = place_particles(drop(dimensions, 20, std::nullopt));
+        const Scene wavy = place_particles(drop(dimensions, 20, Perturbation{2, a}));
+        ASSERT_EQ(round.particles->count(), wavy.particles->count());
+        // xi = a grad(r^2 f/2), so the moment grows by 2 a <r^2> in 2-D, and by a <4 z^2 + x^2 + y^2> = 6 a <r^2>/3 in
+        // 3-D
+        double square = 0;
+        for (Index i = 0; i < round.particles->count(); ++i)
+            square += dot(round.particles->position[i], round.particles->position[i]) / round.particles->count();
+        EXPECT_NEAR(second_moment(*round.particles, dimensions), 0, 1e-12);
+        EXPECT_NEAR(second_moment(*wavy.particles, dimensions), 2 * a * square, 5 * a * a);
+        for (Index i = 0; i < wavy.particles->count(); ++i)
+            ASSERT_EQ(wavy.particles->mass[i], round.particles->mass[i]);
+    }
+}
+
+TEST(Placement, WaveHasItsAmplitudeAtTheSurfaceAndNoneAtTheBottom)
+{
+    Case definition = small_scenes::pool(2, 0.05);
+    definition.domain.upper = {1, 0, 0.8};
+    definition.domain.boundaries[std::size_t(Side::z_max)]->kind = BoundaryKind::open;
+    Body layer;
+    layer.material = "liquid";
+    layer.upper = {1, 0, 0.5};
+    definition.bodies = {layer};
+    const Scene flat = place_particles(definition);
+    definition.bodies[0].surface_wave = SurfaceWave{0.01, 1.0};
+    const Scene wavy = place_particles(definition);
+    ASSERT_EQ(flat.particles->count(), wavy.particles->count());
+    const double k = 2 * std::numbers::pi;
+    for (Index i = 0; i < flat.particles->count(); ++i) {
+        const Vector before = flat.particles->position[i], after = wavy.particles->position[i];
+        if (flat.particles->kind[std::size_t(i)] == Kind::wall)
+            EXPECT_EQ(norm(after - before), 0);
+        else
+            EXPECT_NEAR(after.z - before.z, 0.01 * std::cos(k * before.x) * std::sinh(k * before.z) / std::sinh(k / 2),
+                        1e-12);
+    }
+}
+
+TEST(Placement, JitterIsBoundedAndTheSameEachTime)
+{
+    Case definition = drop(2, 20, std::nullopt);
+    const Scene regular = place_particles(definition);
+    definition.numerics.position_jitter = 0.2;
+    const Scene one = place_particles(definition), other = place_particles(definition);
+    double square = 0;
+    for (Index i = 0; i < one.particles->count(); ++i) {
+        const Vector moved = one.particles->position[i] - regular.particles->position[i];
+        EXPECT_LE(std::abs(moved.x), 0.2 * definition.spacing * (1 + 1e-12));
+        EXPECT_LE(std::abs(moved.z), 0.2 * definition.spacing * (1 + 1e-12));
+        EXPECT_EQ(moved.y, 0);
+        EXPECT_EQ(norm(one.particles->position[i] - other.particles->position[i]), 0);
+        square += dot(moved, moved) / one.particles->count();
+    }
+    EXPECT_NEAR(std::sqrt(square) / definition.spacing, 0.2 * std::sqrt(2.0 / 3.0), 0.02); // uniform in a square
+}
+
+TEST(Placement, FluidStartsWithTheFieldsVelocity)
+{
+    Case definition = drop(2, 20, std::nullopt);
+    definition.initial.velocity = TaylorGreen{3.0, 2.0};
+    const Scene scene = place_particles(definition);
+    for (Index i = 0; i < scene.particles->count(); ++i) {
+        const Vector p = scene.particles->position[i], v = scene.particles->velocity[i];
+        EXPECT_DOUBLE_EQ(v.x, 3 * std::sin(std::numbers::pi * p.x) * std::cos(std::numbers::pi * p.z));
+        EXPECT_DOUBLE_EQ(v.z, -3 * std::cos(std::numbers::pi * p.x) * std::sin(std::numbers::pi * p.z));
+    }
+}
+
+} // namespace
+} // namespace cupel
