@@ -84,8 +84,10 @@ def test_serial_and_two_ranks_agree_to_the_tolerance_of_the_linear_solvers(unbro
     ours, centres = small_cases.last_fields(data, folder)
     theirs, other_centres = small_cases.last_fields(data, other_folder)
     assert np.array_equal(centres, other_centres)
-    # the pressure is solved to 1e-8 of its source: kPa to a Pa, speeds of mm/s to 1e-5 m/s; temperature (in the gas) to 0.1 K
-    assert np.abs(ours["temperature"] - theirs["temperature"]).max() < 0.1
+    # the pressure is solved to 1e-8 of its source: kPa to a Pa, speeds of mm/s to 1e-5 m/s. Gas under the open top, which moves at
+    # such speeds, may then come in or go out: its temperature is not compared
+    metal = ours["fraction"] > 0.5
+    assert np.abs(ours["temperature"] - theirs["temperature"])[metal].max() < 0.01
     assert np.abs(ours["fraction"] - theirs["fraction"]).max() < 1e-8
     assert np.abs(ours["velocity"] - theirs["velocity"]).max() < 1e-5
     assert other["ledgers"]["energy"]["laser_absorbed"] == pytest.approx(record["ledgers"]["energy"]["laser_absorbed"], rel=1e-12)
