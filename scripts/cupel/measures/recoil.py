@@ -10,7 +10,8 @@ The balance of forces along z (exact/recoil.py), weighted with w(r) = cos^2(pi r
     T       on the surface density = 1/2, column by column of the resampling grid (fields.py)
     t       grad(z)/sqrt(1 + grad(z)^2), slope of the surface; its height z from the contents of each column 3 spacings around it
 
-The imbalance, signed, is averaged over the snapshots of `between`: waves and sound cancel, a lasting imbalance does not.
+The imbalance, signed, is averaged over the n snapshots of `between`: waves and sound cancel, a lasting imbalance does not. The value is
+sqrt(mean^2 + spread^2/n), since a balance cannot be said to hold better than its mean is known.
 By parts, so that nothing is fitted to a curvature; w spreads the slope over the footprint, where steps of single elements cancel.
 Reference 0.
 """
@@ -88,11 +89,16 @@ def _from_contents(resampled: Resampled, height: np.ndarray, low: np.ndarray) ->
 
 
 def _of_mean_imbalance(readings: list[Reading]) -> Reading:
-    """Magnitude of the imbalance averaged over the snapshots, in which the ringing of the pressure cancels; its spread beside."""
+    """sqrt(mean^2 + spread^2/n) of the signed imbalance: ringing cancels, but a balance is not better than its mean is known."""
     known = [reading.kept for reading in readings if reading.kept is not None]
     if not known:
         return Reading(None, note=readings[-1].note)
-    return Reading(abs(float(np.mean(known))), uncertainty=float(np.std(known, ddof=1)) if len(known) > 1 else None)
+    mean = float(np.mean(known))
+    if len(known) == 1:
+        return Reading(abs(mean))
+    spread = float(np.std(known, ddof=1))
+    return Reading(float(np.hypot(mean, spread / np.sqrt(len(known)))), uncertainty=spread,
+                   note=f"mean imbalance {mean:+.3g}, spread {spread:.2g} over {len(known)} snapshots")
 
 
 @measure_of_snapshot("recoil_balance_error", unit="1", needs=("temperature", "pressure"), exact=lambda case: 0.0,
