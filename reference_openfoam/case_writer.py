@@ -15,7 +15,7 @@ from .foam_files import boundary_section, dictionary, entry, header, scalar_list
 from .grid import Grid, make_grid
 from .mesh_files import write_mesh
 from .moving_mesh import Window
-from .resolved_case import SIDES, ResolvedCase
+from .resolved_case import NARROWEST_MUSHY_RANGE, SIDES, ResolvedCase
 from .volume_fractions import contains, top_of_bodies, volume_fractions
 
 # Numerics of the reference, the same for every case. Reasons: README.md, section Numerics.
@@ -34,7 +34,6 @@ NUMERICS = {
     "energy_iterations": 25,
     "ray_tracing": False,
 }
-NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
 PATCH_TYPES = {"wall": "wall", "symmetry": "symmetryPlane", "open": "patch", "periodic": "cyclic"}
 TEMPERATURE = "[0 0 0 1 0 0 0]"
 BETWEEN_RANKS = {'"procBoundary.*"': {"type": "processor"}}          # in every field; without effect in a serial case
@@ -105,15 +104,14 @@ def start_temperature(case: ResolvedCase, positions: np.ndarray) -> np.ndarray:
         square = ((positions[:, :2] - np.array(spot["center"][:2], dtype=float))**2).sum(axis=1)
         field = field + spot["rise"]*np.exp(-2*square/spot["radius"]**2)
     temperature = field.copy()
-    primary = _primary_entries(case) if "melting" in case.physics else {}
+    solidus, liquidus = case.melting_range if "melting" in case.physics else (np.inf, -np.inf)
     for body in case.data["bodies"]:
         here = contains(body, positions, case.is_planar)
         own = body.get("temperature")
         temperature[here] = field[here] if own is None else own
-        if primary and body["material"] == case.primary_name and primary["liquidus"] - primary["solidus"] <= NARROWEST_MUSHY_RANGE:
-            side = primary["solidus"] if body["state"] == "solid" else primary["liquidus"]
-            melting = here & (temperature >= primary["solidus"]) & (temperature <= primary["liquidus"])
-            temperature[melting] = side
+        if body["material"] == case.primary_name and liquidus - solidus <= NARROWEST_MUSHY_RANGE*(1 + 1e-9):
+            melting = here & (temperature >= solidus) & (temperature <= liquidus)
+            temperature[melting] = solidus if body["state"] == "solid" else liquidus
     return temperature
 
 
@@ -209,10 +207,7 @@ def _primary_entries(case: ResolvedCase) -> dict[str, Any]:
     elif entries["melts"]:
         for key in ("specific_heat", "conductivity"):
             entries.setdefault(f"{key}_solid", entries[key])
-        if entries["liquidus"] - entries["solidus"] < NARROWEST_MUSHY_RANGE:
-            middle = 0.5*(entries["solidus"] + entries["liquidus"])
-            entries["solidus"] = middle - 0.5*NARROWEST_MUSHY_RANGE
-            entries["liquidus"] = middle + 0.5*NARROWEST_MUSHY_RANGE
+        entries["solidus"], entries["liquidus"] = case.melting_range
     return entries
 
 

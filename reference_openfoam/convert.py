@@ -32,8 +32,8 @@ def liquid_fraction(case: ResolvedCase, temperature: np.ndarray | None, cells: i
     """Liquid fraction of the primary material (n,), linear between solidus and liquidus; 1 where nothing melts."""
     if "melting" not in case.physics or temperature is None:
         return np.ones(cells)
-    solidus, liquidus = case.primary["solidus"], case.primary["liquidus"]
-    return np.clip((temperature - solidus)/max(liquidus - solidus, 1e-9), 0, 1)
+    solidus, liquidus = case.melting_range
+    return np.clip((temperature - solidus)/(liquidus - solidus), 0, 1)
 
 
 class SnapshotWriter:

@@ -25,6 +25,7 @@ NEEDS = {
     "gravity": (),
 }
 SURROUNDING_NEEDS = {"flow": ("viscosity",), "heat": ("specific_heat", "conductivity")}
+NARROWEST_MUSHY_RANGE = 0.1         # K: a material with one melting point is given this range around it
 SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")
 KINDS = ("wall", "symmetry", "open", "periodic")
 
@@ -57,6 +58,15 @@ class ResolvedCase:
     def has_temperature(self) -> bool:
         """Whether there is a temperature field: solved for, or frozen where only Marangoni stress or recoil need it."""
         return bool({"heat", "marangoni", "recoil"} & set(self.physics))
+
+    @property
+    def melting_range(self) -> tuple[float, float]:
+        """Solidus and liquidus of the primary material as this solver takes them [K]."""
+        solidus, liquidus = float(self.primary["solidus"]), float(self.primary["liquidus"])
+        if liquidus - solidus >= NARROWEST_MUSHY_RANGE:
+            return solidus, liquidus
+        middle = 0.5*(solidus + liquidus)
+        return middle - 0.5*NARROWEST_MUSHY_RANGE, middle + 0.5*NARROWEST_MUSHY_RANGE
 
     @property
     def lower(self) -> list[float]:

@@ -123,7 +123,8 @@ def _panel(axes, family: str, history: History, lines: list[tuple[Case, Run, dic
         axes.plot(time_factor * time, factor * value, color=solver_colour(run.solver), linewidth=1.1, alpha=0.85)
         for moments, exact in _exact(history, run, table):
             axes.plot(time_factor * moments, factor * exact, **EXACT)
-    axes.set_title(f"{family} ({len({case.name for case, *_ in lines})})" if len({case.name for case, *_ in lines}) > 1 else family, fontsize=8)
+    variations = len({case.name for case, *_ in lines})
+    axes.set_title(f"{family} ({variations})" if variations > 1 else family, fontsize=8)
     axes.set(xlabel=f"time [{time_unit}]", ylabel=history.title + (f" [{unit}]" if unit else ""))
     if history.decades:
         axes.set_yscale("log")
@@ -143,5 +144,6 @@ def _exact(history: History, run: Run, table: dict) -> list[tuple[np.ndarray, np
             return [(fine, history.exact(settings, fine, float(table[history.column][0])))]
         except (CupelError, KeyError, ValueError):
             return []
-    reference = next((m["reference"] for m in run.result["measures"] if m["name"] == history.measure and m["reference_kind"] in ("exact", "tabulated")), None)
+    reference = next((measure["reference"] for measure in run.result["measures"]
+                      if measure["name"] == history.measure and measure["reference_kind"] in ("exact", "tabulated")), None)
     return [(time[[0, -1]], np.full(2, reference))] if reference else []

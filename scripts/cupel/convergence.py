@@ -19,7 +19,7 @@ Two solvers agree when their finest values differ by less than sqrt(U_a^2 + U_b^
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, replace
 from itertools import combinations
 from pathlib import Path
 
@@ -93,7 +93,7 @@ class Convergence:
     case: str
     studies: tuple[Study, ...] = ()
     agreements: tuple[Agreement, ...] = ()
-    missing: tuple[str, ...] = field(default=())   # why a solver has no study, a line each
+    missing: tuple[str, ...] = ()   # why a solver has no study, a line each
 
 
 def observed_order(coarse: float, fine: float, ratio_fine: float, ratio_coarse: float) -> float | None:
@@ -195,12 +195,12 @@ def _studies(case: str, solver: str, levels: dict[str, tuple[dict, bool]]) -> li
     for name, found in by_measure.items():
         points = list({point.spacing: point for point, _ in found}.values())
         if len(points) < FEWEST_LEVELS or name.endswith("_closure") or name == "laser_absorbed_error":
-            continue
+            continue   # ledgers close to round-off or not at all: they have no order
         last = min(found, key=lambda each: each[0].spacing)[1]
         study = study_of(case, solver, name, last["unit"], points, last["reference"], last["reference_kind"] in ("exact", "tabulated"))
         if len(commits) > 1:
             note = f"levels of different commits: {', '.join(sorted(commits))}"
-            study = Study(**{**study.__dict__, "note": "; ".join(filter(None, (study.note, note)))})
+            study = replace(study, note="; ".join(filter(None, (study.note, note))))
         studies.append(study)
     return studies
 

@@ -63,6 +63,8 @@ WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
             particles_.kind,
             walls ? &particles_.vector("wall_normal") : nullptr,
             walls ? &particles_.scalar("wall_free_slip") : nullptr,
+            walls ? &particles_.scalar("wall_depth") : nullptr,
+            particles_.has("wall_velocity") ? &particles_.vector("wall_velocity") : nullptr,
             particles_.pressure,
             particles_.velocity};
 }

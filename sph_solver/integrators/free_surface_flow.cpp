@@ -9,12 +9,14 @@
 #include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
 
 FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
+      velocity_gradient_(VelocityGradientFields::register_in(particles_)),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
       rest_density_(scene.materials.front().density)
 {
@@ -25,7 +27,6 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
-        strain_rate_ = &particles_.add_scalar({"strain_rate", "1/s"});
         if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
             energy_rate_ = &particles_.add_scalar({"shifting_energy_rate", "W"});
@@ -63,6 +64,7 @@ void FreeSurfaceFlow::drift(const Neighbourhood& neighbourhood, double time_step
 void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
+    velocity_gradient_.reset(place);
     if (!shift_) return;
     shift_->set(place, {});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
@@ -74,12 +76,14 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const auto& clusters = neighbourhood.moving();
     const Continuity continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_rate_};
+    const VelocityGradient gradient{mobility_, particles_.volume, particles_.velocity, correction_, velocity_gradient_};
     const auto sum = [&](const auto&... exchanges) {
         if (!density_gradient_)
-            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, exchanges...);
+            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
+                                 exchanges...);
         const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                                    parameters_.equation_of_state.sound_speed;
-        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity,
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
                       DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
                                        diffusivity, density_rate_},
                       exchanges...);
@@ -112,10 +116,8 @@ void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
         neighbourhood.for_each_moving(
             [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
     }
-    else if (shift_ || temperature_gradient_)
+    else
         sum_with_surface(correction);
-    else if (surface_)
-        sum(surface_->colour_gradient());
 }
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
@@ -137,8 +139,10 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
                                        particles_.velocity,
                                        scene_.materials.front().viscosity.value(),
                                        force_};
+    // The second adds to what the first has just stored for the same cluster.
+    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity, force_};
     const auto sum = [&](const auto&... others) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, others...);
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
     const auto sum_with_gradient = [&](const auto&... others) {
         if (!temperature_gradient_) return sum(others...);
@@ -148,14 +152,11 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
         sum_with_gradient();
     else {
         const double h = parameters_.smoothing_length;
-        // The second reads what the first has just stored for the same cluster.
-        sum_with_gradient(StrainRate{mobility_, particles_.volume, particles_.velocity, correction_, *strain_rate_},
-                          ShiftingVelocity{mobility_, scene_.definition.numerics.shifting, h,
-                                           0.1 * parameters_.equation_of_state.sound_speed,
-                                           kernel_(scene_.spacing).value, 0.05 / h, particles_.volume, *strain_rate_,
-                                           particles_.mass, rest_density_ * scene_.particle_volume(),
-                                           surface_->fields().companions, surface_->fewest_companions(),
-                                           &surface_->fields().colour_gradient, *shift_});
+        sum_with_gradient(ShiftingVelocity{
+            mobility_, scene_.definition.numerics.shifting, h, 0.1 * parameters_.equation_of_state.sound_speed,
+            kernel_(scene_.spacing).value, 0.05 / h, particles_.volume, velocity_gradient_, particles_.mass,
+            rest_density_ * scene_.particle_volume(), surface_->fields().companions, surface_->fewest_companions(),
+            &surface_->fields().colour_gradient, *shift_});
     }
     for (const Index i : neighbourhood.moving_particles()) {
         if (shift_) force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/flow.hpp"
+#include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -25,6 +26,7 @@ private:
     template <class... Others> void extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others);
 
     CorrectionMatrix correction_;
+    VelocityGradientFields velocity_gradient_;
     ScalarField& density_rate_;
     double rest_density_;
     VectorField* density_gradient_ = nullptr; ///< only where density diffuses
@@ -33,7 +35,6 @@ private:
     VectorField* shift_momentum_rate_ = nullptr;
     ScalarField* mass_rate_ = nullptr;
     ScalarField* balance_ = nullptr;
-    ScalarField* strain_rate_ = nullptr;
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;
 };

@@ -10,7 +10,8 @@ namespace cupel::inline CUPEL_ENGINE
 {
 
 /// What a term needs of a neighbour (its Far), as a mirror shows it: vectors turn by the signs, numbers stay. A Far is
-/// a plain struct of up to eight of them.
+/// a plain struct of up to eight of them; one that holds a tensor's rows has a `Far mirrored(const Vector& sign) const`
+/// of its own.
 template <class Far> Far mirrored(Far far, const Vector& sign);
 
 namespace mirrored_members
@@ -49,6 +50,8 @@ template <class Far> Far mirrored(Far far, const Vector& sign)
     else if constexpr (std::same_as<Far, VectorOf<Real>>)
         return {static_cast<Real>(sign.x) * far.x, static_cast<Real>(sign.y) * far.y,
                 static_cast<Real>(sign.z) * far.z};
+    else if constexpr (requires { far.mirrored(sign); })
+        return far.mirrored(sign);
     else {
         using mirrored_members::turn;
         constexpr std::size_t count = mirrored_members::member_count<Far>();

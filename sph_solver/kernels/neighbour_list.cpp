@@ -21,26 +21,57 @@ constexpr Index clusters_per_chunk = 256;
 /// clusters spread, have not grown by more than this factor since the build. Both found by timing, neither is sharp.
 constexpr double greatest_share = 0.4, greatest_growth = 1.3;
 
-/// Consecutive coordinates, measured from `middle`: differences are taken in double, so that float loses nothing.
-Lanes lanes_from(const Array& coordinate, Index first, double middle)
+/// A cluster's coordinates in float, in either precision: lists have a margin for what that leaves out.
+using Narrow = float __attribute__((vector_size(4 * lane_count)));
+
+Narrow narrow(const Array& coordinate, Index first, double middle)
 {
-    Lanes::Register lanes;
+    Narrow lanes;
     const double* values = coordinate.data() + first;
     for (int lane = 0; lane < lane_count; ++lane)
-        lanes[lane] = static_cast<Real>(values[lane] - middle);
-    return Lanes(lanes);
+        lanes[lane] = static_cast<float>(values[lane] - middle);
+    return lanes;
 }
+#if defined(__AVX512F__) && CUPEL_REAL_IS_FLOAT
+// By name, where the compiler, minding what is no number, would take several instructions for one.
+Narrow lesser(const Narrow& a, const Narrow& b)
+{
+    return reinterpret_cast<Narrow>(
+        _mm512_maskz_min_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+unsigned lanes_below(const Narrow& a, float limit)
+{
+    return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), _mm512_set1_ps(limit), _CMP_LT_OQ);
+}
+#elif defined(__AVX__) && !CUPEL_REAL_IS_FLOAT
+Narrow lesser(const Narrow& a, const Narrow& b)
+{
+    return reinterpret_cast<Narrow>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
+}
+unsigned lanes_below(const Narrow& a, float limit)
+{
+    return static_cast<unsigned>(
+        _mm256_movemask_ps(_mm256_cmp_ps(reinterpret_cast<__m256>(a), _mm256_set1_ps(limit), _CMP_LT_OQ)));
+}
+#else
+Narrow lesser(const Narrow& a, const Narrow& b)
+{
+    return a < b ? a : b;
+}
+/// One bit for each lane below a limit, the first lowest.
+unsigned lanes_below(const Narrow& a, float limit)
+{
+    unsigned bits = 0;
+    for (int lane = 0; lane < lane_count; ++lane)
+        bits |= static_cast<unsigned>(a[lane] < limit) << lane;
+    return bits;
+}
+#endif
 
 /// Of `count` columns the one that a place is in, or the outermost; the first where it is no number.
 Index column(double place, Index count)
 {
     return place > 0.0 ? static_cast<Index>(std::min(place, static_cast<double>(count - 1))) : 0;
-}
-
-/// How far a coordinate lies beyond ±half.
-Lanes outside(const Lanes& coordinate, double half)
-{
-    return maximum(maximum(coordinate - half, -coordinate - half), 0.0);
 }
 
 Vector least(const Vector& a, const Vector& b)
@@ -234,7 +265,15 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
         for (Index cx = x0; cx <= x1; ++cx) {
             const auto column =
                 static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
-            for (Index d = first_cluster_of_column_[column]; d < first_cluster_of_column_[column + 1]; ++d) {
+            const Index end = first_cluster_of_column_[column + 1];
+            Index d = first_cluster_of_column_[column];
+            if (loose_.empty())
+                // A column's clusters are in order of height until some have moved.
+                d = static_cast<Index>(
+                    std::partition_point(boxes_.begin() + d, boxes_.begin() + end,
+                                         [&](const Box& other) { return other.upper.z < box.lower.z - reach; }) -
+                    boxes_.begin());
+            for (; d < end; ++d) {
                 if (is_loose_[static_cast<std::size_t>(d)]) continue;
                 const Box& other = boxes_[static_cast<std::size_t>(d)];
                 if (other.upper.z < box.lower.z - reach) continue;
@@ -252,39 +291,32 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
         }
 }
 
-/// Three sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against
-/// that box, then each that is left against its particles, which leaves out the corners of the box.
+/// Two sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against each
+/// of this one's particles.
 void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const
 {
     const double reach = support_ + skin_;
     const auto& position = particles.position;
     const Box& box = boxes_[static_cast<std::size_t>(c)];
     const Cluster& cluster = clusters_[static_cast<std::size_t>(c)];
-    const Vector middle = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
+    const Vector middle = 0.5 * (box.lower + box.upper);
     // Rounded to float, a distance may seem longer than it is by a few 10⁻⁷ of the offsets that it is made of.
-    const double margin = sizeof(Real) == 4 ? 1e-5 : 1e-14;
-    const double reach_squared = reach * reach * (1.0 + margin);
+    const auto reach_squared = static_cast<float>(reach * reach * (1.0 + 1e-5));
 
-    VectorLanes here{lanes_from(position.x, cluster.first, middle.x), lanes_from(position.y, cluster.first, middle.y),
-                     lanes_from(position.z, cluster.first, middle.z)};
-    for (int lane = cluster.count; lane < lane_count; ++lane) {
-        here.x.set(lane, here.x[0]);
-        here.y.set(lane, here.y[0]);
-        here.z.set(lane, here.z[0]);
-    }
+    const Narrow x = narrow(position.x, cluster.first, middle.x), y = narrow(position.y, cluster.first, middle.y),
+                 z = narrow(position.z, cluster.first, middle.z);
     const std::size_t begin = found.size();
     for_each_cluster_near(box, [&](Index d) {
         const Cluster& near = clusters_[static_cast<std::size_t>(d)];
-        const VectorLanes beyond{outside(lanes_from(position.x, near.first, middle.x), half.x),
-                                 outside(lanes_from(position.y, near.first, middle.y), half.y),
-                                 outside(lanes_from(position.z, near.first, middle.z), half.z)};
-        unsigned near_box = set_lanes(dot(beyond, beyond) < reach_squared) & ((1u << near.count) - 1u), near_one = 0;
-        for (; near_box != 0; near_box &= near_box - 1) {
-            const int bit = std::countr_zero(near_box);
-            const VectorLanes offset = here - broadcast(position[near.first + bit] - middle);
-            near_one |= (set_lanes(dot(offset, offset) < reach_squared) != 0 ? 1u : 0u) << bit;
+        const Narrow near_x = narrow(position.x, near.first, middle.x),
+                     near_y = narrow(position.y, near.first, middle.y),
+                     near_z = narrow(position.z, near.first, middle.z);
+        Narrow nearest = reach_squared - Narrow{};
+        for (int lane = 0; lane < cluster.count; ++lane) {
+            const Narrow dx = near_x - x[lane], dy = near_y - y[lane], dz = near_z - z[lane];
+            nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);
         }
-        append_runs(found, begin, near.first, near_one);
+        append_runs(found, begin, near.first, lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u));
     });
 }
 

@@ -75,12 +75,17 @@ public:
     /// Whether a pass may leave out clusters for which its terms have nothing to do.
     bool skips_idle() const { return skips_idle_; }
     void skip_nothing() { skips_idle_ = false; }
-    /// Every particle that is near as itself, then every one that is near as an image (again, if need be).
-    template <class Visit> void for_each_neighbour(Index c, const Visit& visit) const
+    /// Every particle that is near as itself.
+    template <class Visit> void for_each_listed(Index c, const Visit& visit) const
     {
         for (const Run& run : runs(c))
             for (Index j = run.first; j < run.first + run.count; ++j)
                 visit(j);
+    }
+    /// Every particle that is near as itself, then every one that is near as an image (again, if need be).
+    template <class Visit> void for_each_neighbour(Index c, const Visit& visit) const
+    {
+        for_each_listed(c, visit);
         for (const ImageRun& run : image_runs(c))
             for (Index j = run.first; j < run.first + run.count; ++j)
                 visit(j);

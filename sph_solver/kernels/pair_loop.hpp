@@ -91,6 +91,115 @@ std::size_t pass_memory_bytes();
 /// Gives it back; the next pass takes what it needs.
 void release_pass_memory();
 
+/// The particles of a cluster and the kernel: makes a Pair of an offset to a neighbour.
+template <class Kernel> struct PairMaker
+{
+    const Kernel& kernel;
+    double tiny; ///< added to squares, so that none is zero, m²
+
+    Pair operator()(const VectorLanes& offset) const
+    {
+        Pair pair;
+        pair.offset = offset;
+        pair.square = dot(offset, offset) + tiny;
+        const auto w = kernel.of_square(pair.square);
+        pair.kernel = w.value;
+        pair.gradient_over_r = w.gradient_over_r;
+        return pair;
+    }
+};
+
+/// Terms, with what they know of a cluster of particles i.
+template <class... Terms> struct TermsOfCluster
+{
+    using Sums = std::tuple<typename Terms::Sum...>;
+    using Fars = std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
+
+    const std::tuple<const Terms&...>& terms;
+    std::tuple<typename Terms::Near...> near;
+
+    TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
+        : terms(all), near(std::apply([&](const Terms&... each) { return std::tuple{each.near(first)...}; }, all))
+    {}
+
+    bool all_ignore(const Fars& far) const { return all_ignore(far, std::index_sequence_for<Terms...>{}); }
+    void add(const Fars& far, const Pair& pair, Sums& sums) const
+    {
+        add(far, pair, sums, std::index_sequence_for<Terms...>{});
+    }
+    void store(const Cluster& cluster, const Sums& sums) const
+    {
+        store(cluster, sums, std::index_sequence_for<Terms...>{});
+    }
+
+private:
+    template <std::size_t... t> bool all_ignore(const Fars& far, std::index_sequence<t...>) const
+    {
+        return (ignores(std::get<t>(terms), std::get<t>(far)) && ...);
+    }
+    template <std::size_t... t> void add(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<t...>) const
+    {
+        ((ignores(std::get<t>(terms), std::get<t>(far))
+              ? void()
+              : std::get<t>(terms).add(std::get<t>(near), std::get<t>(far), pair, std::get<t>(sums))),
+         ...);
+    }
+    template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
+    {
+        (std::get<t>(terms).store(cluster, std::get<t>(near), std::get<t>(sums)), ...);
+    }
+};
+
+/// The sums over the neighbours that are listed; neighbour(j) gives a neighbour's record. All that it calls is compiled
+/// into it, so that sums stay in registers while neighbours pass by.
+template <class Kernel, class NeighbourOf, class... Terms>
+[[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
+sum_over_runs(std::span<const Run> runs, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
+              const TermsOfCluster<Terms...>& terms, const NeighbourOf& neighbour)
+{
+    // Not what is returned itself, which would be kept in memory.
+    typename TermsOfCluster<Terms...>::Sums sums{};
+    if constexpr ((Ignores<Terms> && ...)) {
+        for (const Run& run : runs)
+            for (Index j = run.first; j < run.first + run.count; ++j) {
+                const auto& other = neighbour(j);
+                if (!terms.all_ignore(other.far))
+                    terms.add(other.far, pair_at(offset_between(here, other.place)), sums);
+            }
+    }
+    else if (RunWalk walk(runs); walk.goes_on()) {
+        // One neighbour ahead: what a kernel takes longest for is under way while sums are added to.
+        Index j = walk.place();
+        Pair pair = pair_at(offset_between(here, neighbour(j).place));
+        do {
+            walk.advance();
+            const Index next = walk.place();
+            const Pair next_pair = pair_at(offset_between(here, neighbour(next).place));
+            terms.add(neighbour(j).far, pair, sums);
+            pair = next_pair;
+            j = next;
+        } while (walk.goes_on());
+    }
+    return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
+}
+
+/// Adds what a cluster sees beyond periodic and symmetry sides.
+template <class Kernel, class... Terms>
+[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const VectorField& position,
+                                  const PairMaker<Kernel>& pair_at, const TermsOfCluster<Terms...>& terms,
+                                  typename TermsOfCluster<Terms...>::Sums& sums)
+{
+    for_each_image(
+        list, list.image_runs(c), position, list.cluster(c).first,
+        [&](Index j, const Image& image, const VectorLanes& offset) {
+            auto far = std::apply(
+                [&](const Terms&... each) { return typename TermsOfCluster<Terms...>::Fars{far_of(each, j)...}; },
+                terms.terms);
+            if (image.mirrors()) std::apply([&](auto&... f) { ((f = mirrored(f, image.sign)), ...); }, far);
+            terms.add(far, pair_at(offset), sums);
+        });
+}
+
 /// Sums over neighbours, several of them in one pass. A term is a struct with
 ///
 ///   struct Near                              what a term needs of particle i (a cluster of them, in lanes)
@@ -116,70 +225,31 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
 {
     using Record = Neighbour<Terms...>;
     const auto count = static_cast<Index>(clusters.size());
-    const double tiny = 1e-18 * list.support() * list.support();
+    const PairMaker<Kernel> pair_at{kernel, 1e-18 * list.support() * list.support()};
     const Places places(list, particles.position);
-    const auto sum_up = [&](const auto& place, const auto& neighbour) {
+    const std::tuple<const Terms&...> all_terms{terms...};
+    const auto sum_up = [&](const auto& neighbour) {
         // A few clusters are done sooner than threads are woken.
         const Index share = count > 512 ? 16 : 4;
 #pragma omp parallel if (count > 16)
         {
-            Surroundings surroundings(places);
+            const FlushedToZero no_denormals;
 #pragma omp for schedule(dynamic, share)
             for (Index k = 0; k < count; ++k) {
                 const Index c = clusters[static_cast<std::size_t>(k)];
                 const Cluster cluster = list.cluster(c);
                 if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-                surroundings.centre_on(cluster.first, list.runs(c), place);
-                const std::tuple<typename Terms::Near...> near{terms.near(cluster.first)...};
-                std::tuple<typename Terms::Sum...> sums{};
-                const auto meet = [&](const auto& far, const VectorLanes& offset) {
-                    const bool counts = [&]<std::size_t... t>(std::index_sequence<t...>)
-                    {
-                        return !(ignores(terms, std::get<t>(far)) && ...);
-                    }
-                    (std::index_sequence_for<Terms...>{});
-                    if (!counts) return;
-                    Pair pair;
-                    pair.offset = offset;
-                    pair.square = dot(pair.offset, pair.offset) + tiny;
-                    const auto w = kernel.of_square(pair.square);
-                    pair.kernel = w.value;
-                    pair.gradient_over_r = w.gradient_over_r;
-                    [&]<std::size_t... t>(std::index_sequence<t...>)
-                    {
-                        ((ignores(terms, std::get<t>(far))
-                              ? void()
-                              : terms.add(std::get<t>(near), std::get<t>(far), pair, std::get<t>(sums))),
-                         ...);
-                    }
-                    (std::index_sequence_for<Terms...>{});
-                };
-                surroundings.for_each_neighbour([&](Index j) {
-                    const Record& other = neighbour(j);
-                    meet(other.far, surroundings.next_offset(other.place));
-                });
-                if (const auto images = list.image_runs(c); !images.empty())
-                    for_each_image(list, images, particles.position, cluster.first,
-                                   [&](Index j, const Image& image, const VectorLanes& offset) {
-                                       std::tuple<decltype(far_of(terms, j))...> far{far_of(terms, j)...};
-                                       if (image.mirrors())
-                                           std::apply([&](auto&... f) { ((f = mirrored(f, image.sign)), ...); }, far);
-                                       meet(far, offset);
-                                   });
-                [&]<std::size_t... t>(std::index_sequence<t...>)
-                {
-                    (terms.store(cluster, std::get<t>(near), std::get<t>(sums)), ...);
-                }
-                (std::index_sequence_for<Terms...>{});
+                const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+                auto sums =
+                    sum_over_runs(list.runs(c), places.of_cluster(cluster.first), pair_at, of_cluster, neighbour);
+                if (!list.image_runs(c).empty()) add_images(list, c, particles.position, pair_at, of_cluster, sums);
+                of_cluster.store(cluster, sums);
             }
         }
     };
 
     if (2 * count < list.cluster_count()) {
-        sum_up([&](Index j) { return particles.position[j]; },
-               [&](Index j) {
-                   return Record{places(j), {far_of(terms, j)...}};
-               });
+        sum_up([&](Index j) { return Record{places(j), {far_of(terms, j)...}}; });
         return;
     }
     const Index all = particles.count();
@@ -187,8 +257,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
 #pragma omp parallel for schedule(static)
     for (Index j = 0; j < all; ++j)
         new (records + j) Record{places(j), {far_of(terms, j)...}};
-    sum_up([records](Index j) -> const Place& { return records[j].place; },
-           [records](Index j) -> const Record& { return records[j]; });
+    sum_up([records](Index j) -> const Record& { return records[j]; });
 }
 
 /// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.

@@ -37,6 +37,31 @@ using Real = CUPEL_REAL;
 /// sums live in while its neighbours pass by.
 inline constexpr int lane_count = 64 / sizeof(Real);
 
+/// While it lives, what float cannot hold to its full digits counts as zero in this thread. The outermost neighbours'
+/// fourth powers of W are such numbers, and a processor may take a hundred times as long for them.
+class FlushedToZero
+{
+#if defined(__SSE__) && CUPEL_REAL_IS_FLOAT
+public:
+    FlushedToZero() : before_(_mm_getcsr())
+    {
+        _mm_setcsr(before_ | 0x8040u);
+    }
+    ~FlushedToZero()
+    {
+        _mm_setcsr(before_);
+    }
+    FlushedToZero(const FlushedToZero&) = delete;
+    FlushedToZero& operator=(const FlushedToZero&) = delete;
+
+private:
+    unsigned before_;
+#else
+public:
+    FlushedToZero() {}
+#endif
+};
+
 struct LaneMask
 {
     using Bits = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;

@@ -10,7 +10,8 @@ namespace cupel::inline CUPEL_ENGINE
 ///   m_i dv_i/dt = −Σ_j V_i V_j (p_i + p_j) ∇W_ij + Σ_j 2 μ V_i V_j (1/r dW/dr) (v_i − v_j)      [N]
 ///
 /// The first sum is the variational partner of the continuity equation (Colagrossi et al. 2009: consistent at a free
-/// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22. Both are antisymmetric: they conserve momentum
+/// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22, to which viscous_traction.hpp adds what it lacks
+/// at a free surface. Both are antisymmetric: they conserve momentum
 /// between liquid particles to round-off. Shifting keeps the arrangement even, which the second sum relies on.
 struct FreeSurfaceMomentum
 {

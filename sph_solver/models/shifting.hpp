@@ -3,62 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/gradient_correction.hpp"
 #include "models/term.hpp"
+#include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
-
-/// Magnitude of the strain rate, with the corrected gradient of velocity:
-///
-///   γ̇_i = √(2 S:S),   S = ½(∇v + ∇vᵀ),   ∇v_i = Σ_j V_j (v_j − v_i) ⊗ L_i ∇W_ij      [1/s]
-struct StrainRate
-{
-    Mobility mobility;
-    const ScalarField& volume;
-    const VectorField& velocity;
-    CorrectionMatrix correction;
-    ScalarField& strain_rate;
-
-    struct Near
-    {
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real volume;
-        VectorOf<Real> velocity;
-    };
-    struct Sum
-    {
-        VectorLanes x{}, y{}, z{}; // gradients of the three components, not yet corrected
-    };
-
-    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(velocity[j])}; }
-    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
-    {
-        const VectorLanes weight = (j.volume * pair.gradient_over_r) * pair.offset;
-        const VectorLanes change = broadcast(j.velocity) - i.velocity;
-        sum.x += change.x * weight;
-        sum.y += change.y * weight;
-        sum.z += change.z * weight;
-    }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
-    {
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0) continue;
-            const auto row = [&](const VectorLanes& g) {
-                return correction[i] * Vector{g.x[lane], g.y[lane], g.z[lane]};
-            };
-            const Vector u = row(sum.x), v = row(sum.y), w = row(sum.z);
-            const double xy = u.y + v.x, xz = u.z + w.x, yz = v.z + w.y;
-            strain_rate[i] = std::sqrt(2.0 * (u.x * u.x + v.y * v.y + w.z * w.z) + xy * xy + xz * xz + yz * yz);
-        }
-    }
-};
 
 /// b = max(0, 1 − 5 |m/m₀ − 1|): a particle that has lost or gained a fifth of its mass exchanges no more of it.
 inline double exchange_balance(double mass, double lattice_mass)
@@ -68,12 +17,13 @@ inline double exchange_balance(double mass, double lattice_mass)
 
 /// Shifting velocity (Lind et al. 2012, with the pairing correction of Sun et al. 2017), scaled by the local strain:
 ///
-///   δu_i = −U_i 2h Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   U_i = min(20 s h γ̇_i, 0.1 c₀),   |δu_i| ≤ 0.1 U_i   [m/s]
+///   δu_i = −U_i 2h Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   U_i = min(20 s h γ̇_i, 0.1 c₀),   |δu_i| ≤ ½ U_i   [m/s]
 ///
-/// The factor 20 is fitted: with it (s = 1) a closed layer that turns over keeps its particles evenly spaced; a
-/// fifth of it leaves rows that are half again as dense along the flow as across it.
-/// Particles are moved where the flow distorts their arrangement and in proportion to it, nowhere else: a drop at rest
-/// is left alone, and one fast particle moves no other. In the surface band only the tangential part is kept.
+/// The limit ½ U is the published one (Sun et al. 2019, eq. 10). The factor 20 is fitted: with it (s = 1) a closed
+/// layer that turns over keeps its particles evenly spaced; a fifth of it leaves rows that are half again as dense
+/// along the flow as across it. Particles are moved where the flow distorts their arrangement and in proportion to it,
+/// nowhere else: a drop at rest is left alone, and one fast particle moves no other. In the surface band only the
+/// tangential part is kept.
 struct ShiftingVelocity
 {
     Mobility mobility;
@@ -83,7 +33,7 @@ struct ShiftingVelocity
     double kernel_at_spacing; ///< W(Δx)
     double tangential_above;  ///< |∇c| above which only the tangential part is kept, 1/m
     const ScalarField& volume;
-    const ScalarField& strain_rate;
+    VelocityGradientFields velocity_gradient; ///< whose strain scales the shift
     const ScalarField& mass;
     double lattice_mass; ///< of a particle at the start, kg
     const ScalarField& companions;
@@ -118,10 +68,11 @@ struct ShiftingVelocity
             if (mobility.weight[i] == 0.0) continue;
             const double balance = companions[i] < fewest_companions ? 0.0 : exchange_balance(mass[i], lattice_mass);
             const double speed =
-                balance * std::min(20.0 * strength * smoothing_length * strain_rate[i], greatest_speed);
+                balance *
+                std::min(20.0 * strength * smoothing_length * velocity_gradient.strain_rate(i), greatest_speed);
             Vector u = (-2.0 * smoothing_length * speed) *
                        Vector{sum.concentration.x[lane], sum.concentration.y[lane], sum.concentration.z[lane]};
-            const double limit = 0.1 * speed;
+            const double limit = 0.5 * speed;
             const double magnitude = norm(u);
             if (magnitude > limit) u = (limit / magnitude) * u;
             const Vector gradient = (*colour_gradient)[i];

@@ -12,9 +12,16 @@ namespace cupel::inline CUPEL_ENGINE
 /// the paper, section 2.4):
 ///
 ///   p_w = [Σ p_f W + (g − a_w) · Σ ρ_f r_wf W] / Σ W      [Pa]
-///   v_w = 2 v_wall − Σ v_f W / Σ W   (no slip);   v_w = ṽ − 2 (ṽ·n) n, ṽ = Σ v_f W / Σ W   (free slip)      [m/s]
+///   v_w = 2 v_wall − ṽ, ṽ = Σ v_f W / Σ W   (no slip);   v_w = ṽ − 2 (ṽ·n) n   (free slip)      [m/s]
 ///
-/// Walls are at rest here. Without a gas on the other side a wall does not pull: then p_w is kept at or above zero.
+/// Along a flat wall without slip the extrapolation is linear in the distance: what ṽ says at the mean distance d̃ of
+/// the liquid that is seen holds at that distance, not at the depth d_w of the wall particle,
+///
+///   (v_w − v_wall)_t = −min(d_w/d̃, 3) (ṽ − v_wall)_t,   d̃ = Σ d_f W / Σ W
+///
+/// (Morris, Fox, Zhu 1997, eq. 26, with a limit against noise; with it the wall of a shear flow is where it should be,
+/// without it the second layer gives a third of its stress). Solids have no such plane and edges none of their own:
+/// there the ratio is one. Without a gas on the other side a wall does not pull: then p_w is kept at or above zero.
 /// Solid metal is of one piece with its melt and may pull: else what melts would be thrown off by every positive
 /// pressure and held by no negative one.
 struct WallExtrapolation
@@ -26,6 +33,8 @@ struct WallExtrapolation
     const std::vector<Kind>& kind;
     const VectorField* wall_normal; ///< null where the scene has only solids
     const ScalarField* free_slip;
+    const ScalarField* wall_depth;    ///< d_w, m; 0 where no plane is meant
+    const VectorField* wall_velocity; ///< v_wall, m/s; null where all walls are at rest
     ScalarField& pressure;
     VectorField& velocity;
 
@@ -39,7 +48,7 @@ struct WallExtrapolation
     struct Sum
     {
         Lanes weight{}, pressure{};
-        VectorLanes head{}, velocity{};
+        VectorLanes head{}, velocity{}, away{}; ///< away: Σ (x_w − x_f) W
     };
 
     bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
@@ -55,6 +64,7 @@ struct WallExtrapolation
         sum.pressure += j.pressure * pair.kernel;
         sum.head += (j.density * pair.kernel) * pair.offset;
         sum.velocity += pair.kernel * broadcast(j.velocity);
+        sum.away += pair.kernel * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -75,8 +85,21 @@ struct WallExtrapolation
             if (free_slip && (*free_slip)[i] != 0.0)
                 velocity.set(i, mean - (2.0 * dot(mean, (*wall_normal)[i])) * (*wall_normal)[i]);
             else
-                velocity.set(i, -1.0 * mean);
+                velocity.set(i, no_slip(i, mean, scale * Vector{sum.away.x[lane], sum.away.y[lane], sum.away.z[lane]}));
         }
+    }
+
+    Vector no_slip(Index i, const Vector& mean, const Vector& away) const
+    {
+        const Vector wall = wall_velocity ? (*wall_velocity)[i] : Vector{};
+        const Vector slip = mean - wall;
+        const double depth = wall_depth ? (*wall_depth)[i] : 0.0;
+        if (depth == 0.0) return wall - slip;
+        const Vector normal = (*wall_normal)[i];
+        const double distance = -dot(away, normal) - depth;
+        const double ratio = distance > 0.0 ? std::min(depth / distance, 3.0) : 3.0;
+        const Vector across = dot(slip, normal) * normal;
+        return wall - across - ratio * (slip - across);
     }
 };
 

@@ -314,6 +314,16 @@ def test_a_wrong_pressure_or_tension_is_an_error_of_its_share():
     assert weak == pytest.approx(0.25 * right["surface_tension_N"] / right["recoil_N"], abs=0.012)
 
 
+def test_ringing_of_the_pressure_cancels_over_snapshots_and_a_lasting_imbalance_does_not():
+    chosen = find_measure("recoil_balance_error")
+    high, low, right = (chosen.read(recoil_snapshot("layers", 2, pressure_factor=factor)) for factor in (1.5, 0.5, 1.0))
+    assert min(high.value, low.value) > 0.05
+    assert chosen.combine(2000 * [high, low]).value == pytest.approx(right.value, abs=1e-3)
+    assert chosen.combine([high, high, high]).value == pytest.approx(high.value)
+    few = chosen.combine([high, low])      # two snapshots do not show that a balance holds
+    assert few.value > 0.1 and "over 2 snapshots" in few.note
+
+
 def test_elements_keep_pressure_through_files(tmp_path):
     made = Elements(np.zeros((2, 3)), np.ones(2), np.ones(2), pressure=np.array([1.5, -2.0]))
     from cupel.measures import read_series

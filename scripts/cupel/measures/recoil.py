@@ -10,6 +10,8 @@ The balance of forces along z (exact/recoil.py), weighted with w(r) = cos^2(pi r
     T       on the surface density = 1/2, column by column of the resampling grid (fields.py)
     t       grad(z)/sqrt(1 + grad(z)^2), slope of the surface; its height z from the contents of each column 3 spacings around it
 
+The imbalance, signed, is averaged over the n snapshots of `between`: waves and sound cancel, a lasting imbalance does not. The value is
+sqrt(mean^2 + spread^2/n), since a balance cannot be said to hold better than its mean is known.
 By parts, so that nothing is fitted to a curvature; w spreads the slope over the footprint, where steps of single elements cancel.
 Reference 0.
 """
@@ -86,7 +88,21 @@ def _from_contents(resampled: Resampled, height: np.ndarray, low: np.ndarray) ->
     return np.where(np.isfinite(height), resampled.origin[-1] + (bottom + content) * resampled.grid_spacing, np.nan)
 
 
-@measure_of_snapshot("recoil_balance_error", unit="1", needs=("temperature", "pressure"), exact=lambda case: 0.0)
+def _of_mean_imbalance(readings: list[Reading]) -> Reading:
+    """sqrt(mean^2 + spread^2/n) of the signed imbalance: ringing cancels, but a balance is not better than its mean is known."""
+    known = [reading.kept for reading in readings if reading.kept is not None]
+    if not known:
+        return Reading(None, note=readings[-1].note)
+    mean = float(np.mean(known))
+    if len(known) == 1:
+        return Reading(abs(mean))
+    spread = float(np.std(known, ddof=1))
+    return Reading(float(np.hypot(mean, spread / np.sqrt(len(known)))), uncertainty=spread,
+                   note=f"mean imbalance {mean:+.3g}, spread {spread:.2g} over {len(known)} snapshots")
+
+
+@measure_of_snapshot("recoil_balance_error", unit="1", needs=("temperature", "pressure"), exact=lambda case: 0.0,
+                     combine=_of_mean_imbalance)
 def recoil_balance_error(snapshot: Snapshot) -> Reading:
     case = snapshot.case
     material = primary_material(case, "surface_tension", "boiling_temperature", "vaporization_heat", "molar_mass")
@@ -105,7 +121,8 @@ def recoil_balance_error(snapshot: Snapshot) -> Reading:
                              material["molar_mass"], ambient)
     push, bear = float((weight[inside] * recoil).sum()) * surface.column, pressure * float(weight.sum()) * surface.column
     hold = _held(surface, weight, _tension(material, surface.temperature), "marangoni" in case["physics"])
-    return Reading(abs(push - bear - hold) / push,
+    imbalance = (push - bear - hold) / push
+    return Reading(abs(imbalance), kept=imbalance,
                    beside={"recoil_N": push, "liquid_pressure_N": bear, "surface_tension_N": hold,
                            "greatest_temperature_K": float(surface.temperature[inside].max())})
 

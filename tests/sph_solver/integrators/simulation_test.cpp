@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "small_scenes.hpp"
@@ -109,6 +111,24 @@ TEST(Simulation, ComputesOnlyWhatTheCaseNames)
     EXPECT_FALSE(simulate(still, 1).particles().has("surface_delta"));
 }
 
+TEST(PlaceParticles, LiquidThatIsShiftedStartsAThousandthOfASpacingOffItsLattice)
+{
+    const auto furthest_off = [](double shifting) {
+        Case definition = pool();
+        definition.numerics.shifting = shifting;
+        const Scene scene = place_particles(definition);
+        double furthest = 0.0;
+        for (Index i = 0; i < scene.particles->count(); ++i) {
+            const double cell = scene.particles->position[i].x / 0.1 - 0.5;
+            furthest = std::max(furthest, std::abs(cell - std::round(cell)));
+        }
+        return furthest;
+    };
+    EXPECT_LT(furthest_off(0.0), 1e-12);
+    EXPECT_GT(furthest_off(1.0), 1e-4);
+    EXPECT_LT(furthest_off(1.0), 1.001e-3);
+}
+
 TEST(Simulation, SolidCoveredDomainHasNoWalls)
 {
     Case definition = pool();
@@ -126,6 +146,8 @@ Case channel()
     definition.domain.upper = definition.bodies.front().upper = {1, 0, 1};
     definition.domain.boundaries[0]->kind = definition.domain.boundaries[1]->kind = BoundaryKind::periodic;
     definition.domain.boundaries[5]->kind = BoundaryKind::wall;
+    // Nothing is shifted, so that particles start on the lattice and its rows stay.
+    definition.numerics.shifting = 0.0;
     return definition;
 }
 
@@ -164,7 +186,21 @@ double difference_to_mirrored(double shifting)
     Case half = whole;
     half.domain.lower[0] = half.bodies.front().lower[0] = 0;
     half.domain.boundaries[0]->kind = BoundaryKind::symmetry;
-    const Simulation both = simulate(whole, 100), right = simulate(half, 100);
+    const auto run = [](const Case& definition) {
+        Scene scene = place_particles(definition);
+        // Back onto the lattice, so that both halves start alike.
+        const auto centre = [](double& x) { x = 0.1 * (std::floor(x / 0.1) + 0.5); };
+        for (double& x : scene.particles->position.x)
+            centre(x);
+        for (double& z : scene.particles->position.z)
+            centre(z);
+        Simulation simulation(std::move(scene));
+        simulation.start();
+        for (int step = 0; step < 100; ++step)
+            simulation.step(1.0);
+        return simulation;
+    };
+    const Simulation both = run(whole), right = run(half);
     EXPECT_DOUBLE_EQ(both.time(), right.time());
     double greatest = 0.0, fastest = 0.0;
     std::size_t count = 0;
@@ -180,6 +216,58 @@ double difference_to_mirrored(double shifting)
     EXPECT_EQ(2 * count, both.neighbourhood().moving_particles().size());
     EXPECT_GT(fastest, 0.1);
     return greatest;
+}
+
+TEST(Simulation, MovingWallDragsTheLiquidAlongLinearly)
+{
+    Case definition = channel();
+    definition.physics = {"flow"};
+    definition.domain.boundaries[5]->velocity = {1, 0, 0};
+    definition.numerics.shifting = 1.0;
+    definition.materials.at("liquid").viscosity = 1.0;
+    Simulation simulation(place_particles(definition));
+    Particles& particles = simulation.particles();
+    for (Index i = 0; i < particles.count(); ++i)
+        if (particles.kind[static_cast<std::size_t>(i)] == Kind::fluid)
+            particles.velocity.set(i, {particles.position[i].z, 0, 0});
+    simulation.start();
+    // Ten particles across, Reynolds number 1, ν t = 0.5 H²: long enough to find another profile, were there one.
+    while (simulation.time() < 0.5)
+        simulation.step(1.0);
+    for (const Index i : simulation.neighbourhood().moving_particles())
+        EXPECT_NEAR(particles.velocity[i].x, particles.position[i].z, 0.01);
+}
+
+TEST(Simulation, WallsOfPrescribedTemperatureHeatALiquidThatNeitherMeltsNorFlows)
+{
+    for (const BoundaryKind side : {BoundaryKind::periodic, BoundaryKind::symmetry}) {
+        Case definition = channel();
+        definition.spacing = 0.05;
+        definition.physics = {"heat"};
+        Material& liquid = definition.materials.at("liquid");
+        liquid.specific_heat = liquid.specific_heat_solid = 1.0;
+        liquid.conductivity = liquid.conductivity_solid = 0.01;
+        definition.domain.boundaries[0]->kind = definition.domain.boundaries[1]->kind = side;
+        definition.domain.boundaries[4]->temperature = 300.0;
+        definition.domain.boundaries[5]->temperature = 400.0;
+        Simulation simulation(place_particles(definition));
+        simulation.start();
+        const double time = 5.0; // α t = 0.05 H²
+        while (simulation.time() < time * (1.0 - 1e-12))
+            simulation.step(time - simulation.time());
+        const Particles& particles = simulation.particles();
+        for (Index i = 0; i < particles.count(); ++i) {
+            if (particles.kind[static_cast<std::size_t>(i)] != Kind::fluid) continue;
+            const double z = particles.position[i].z;
+            double rise = z; // series for a plate whose upper face is suddenly 100 K hotter (Carslaw, Jaeger 1959, 3.4)
+            for (int n = 1; n < 50; ++n) {
+                const double k = n * std::numbers::pi;
+                rise += 2.0 / k * (n % 2 ? -1.0 : 1.0) * std::sin(k * z) * std::exp(-k * k * 0.01 * time);
+            }
+            // Half a per cent of the wall's step at 20 particles across.
+            EXPECT_NEAR(particles.scalar("temperature")[i], 300.0 + 100.0 * rise, 0.5);
+        }
+    }
 }
 
 TEST(Simulation, MirrorSideEqualsTheOtherHalf)

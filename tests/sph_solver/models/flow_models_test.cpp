@@ -7,6 +7,7 @@
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
 #include "models/surface_forces.hpp"
+#include "models/viscous_traction.hpp"
 #include "small_scenes.hpp"
 
 namespace cupel
@@ -131,11 +132,54 @@ TEST_P(FlowModels, PressureAndViscosityConserveMomentum)
     EXPECT_LT(norm(total), 1e-12 * size);
 }
 
+/// Power of viscous forces on a block free on all sides that is strained, u = x, w = −z, by Morris's sum and with the
+/// traction; the total force beside it.
+struct ViscousPower
+{
+    double laplacian, whole;
+    Vector total_force;
+};
+ViscousPower viscous_power(int dimensions, double jitter)
+{
+    Block block(dimensions, 12, jitter);
+    Particles& particles = block.particles;
+    VectorField& force = particles.add_vector({"force", "N"});
+    ScalarField& no_pressure = particles.add_scalar({"no_pressure", "Pa"});
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    for (Index i = 0; i < particles.count(); ++i)
+        particles.velocity.set(i, {particles.position[i].x, 0.0, -particles.position[i].z});
+    const auto power = [&] {
+        double sum = 0.0;
+        for (Index i = 0; i < particles.count(); ++i)
+            sum += dot(force[i], particles.velocity[i]);
+        return sum;
+    };
+    block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, gradient});
+    block.run(FreeSurfaceMomentum{{block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, force});
+    ViscousPower result{power(), 0.0, {}};
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, force});
+    result.whole = power();
+    for (Index i = 0; i < particles.count(); ++i)
+        result.total_force += force[i];
+    return result;
+}
+
+TEST_P(FlowModels, StrainedLiquidDissipatesTwiceViscosityTimesStrainSquared)
+{
+    // ∇v:∇v = 2 and 2 S:S = 4 for u = x, w = −z: potential flow, in which the traction doubles what is dissipated.
+    const ViscousPower lattice = viscous_power(GetParam(), 0.0);
+    EXPECT_LT(lattice.whole, 0.0);
+    EXPECT_NEAR(lattice.whole / lattice.laplacian, 2.0, 0.02);
+    const ViscousPower jittered = viscous_power(GetParam(), 0.25);
+    EXPECT_NEAR(jittered.whole / jittered.laplacian, 2.0, 0.1);
+    EXPECT_LT(norm(jittered.total_force), 1e-11 * std::abs(jittered.whole));
+}
+
 TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
 {
     Block block(GetParam());
     Particles& particles = block.particles;
-    ScalarField& strain = particles.add_scalar({"strain_rate", "1/s"});
+    const VelocityGradientFields velocity_gradient = VelocityGradientFields::register_in(particles);
     VectorField& gradient = particles.add_vector({"colour_gradient", "1/m"});
     VectorField& shift = particles.add_vector({"shift", "m/s"});
     ScalarField& companions = particles.add_scalar({"companions", "1"}, 10.0);
@@ -144,7 +188,8 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
     VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
     const auto shifting = [&] {
-        block.run(StrainRate{{block.mobility}, particles.volume, particles.velocity, block.correction, strain});
+        block.run(VelocityGradient{
+            {block.mobility}, particles.volume, particles.velocity, block.correction, velocity_gradient});
         block.run(ShiftingVelocity{{block.mobility},
                                    1.0,
                                    1.0,
@@ -152,7 +197,7 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
                                    block.kernel(1.0).value,
                                    1e9,
                                    particles.volume,
-                                   strain,
+                                   velocity_gradient,
                                    particles.mass,
                                    1.0,
                                    companions,
@@ -167,7 +212,7 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
         particles.velocity.set(i, {3.0 * particles.position[i].z, 0.0, 0.0});
     shifting();
     // Simple shear u = 3 z has γ̇ = 3.
-    EXPECT_NEAR(strain[0], 3.0, 1e-9);
+    EXPECT_NEAR(velocity_gradient.strain_rate(0), 3.0, 1e-9);
     block.run(ShiftingExchange{{block.mobility},
                                particles.volume,
                                particles.density,

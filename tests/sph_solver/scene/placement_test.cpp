@@ -16,6 +16,7 @@ namespace
 Case drop(int dimensions, int n, std::optional<Perturbation> perturbation)
 {
     Case definition = small_scenes::pool(dimensions, 2.0 / n);
+    definition.numerics.shifting = 0.0; // or particles would start off their lattice
     definition.domain.lower = {-2, dimensions == 2 ? 0.0 : -2, -2};
     definition.domain.upper = {2, dimensions == 2 ? 0.0 : 2, 2};
     for (auto& boundary : definition.domain.boundaries)
@@ -62,6 +63,7 @@ TEST(Placement, PerturbedDropHasTheMomentOfItsMode)
 TEST(Placement, WaveHasItsAmplitudeAtTheSurfaceAndNoneAtTheBottom)
 {
     Case definition = small_scenes::pool(2, 0.05);
+    definition.numerics.shifting = 0.0; // or particles would start off their lattice
     definition.domain.upper = {1, 0, 0.8};
     definition.domain.boundaries[std::size_t(Side::z_max)]->kind = BoundaryKind::open;
     Body layer;
