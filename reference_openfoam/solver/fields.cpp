@@ -1,4 +1,5 @@
 #include "fields.hpp"
+#include "processorFvPatch.H"
 
 namespace cupel
 {
@@ -14,6 +15,22 @@ IOobject working(const fvMesh& mesh, const word& name)
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE);
 }
 
+/// Fetches the values beside the cuts between ranks: a start field is read without them, and a field that is never
+/// solved for (a frozen temperature) would keep its own.
+template <class Type>
+GeometricField<Type, fvPatchField, volMesh>& exchanged(GeometricField<Type, fvPatchField, volMesh>& field)
+{
+    auto& patches = field.boundaryFieldRef();
+    const label requests = Pstream::nRequests();
+    forAll (patches, patch)
+        if (isA<processorFvPatch>(patches[patch].patch()))
+            patches[patch].initEvaluate(Pstream::commsTypes::nonBlocking);
+    Pstream::waitRequests(requests);
+    forAll (patches, patch)
+        if (isA<processorFvPatch>(patches[patch].patch())) patches[patch].evaluate(Pstream::commsTypes::nonBlocking);
+    return field;
+}
+
 tmp<volScalarField> mixture_density(const Scene& scene, const volScalarField& fraction)
 {
     const scalar primary = scene.primary.density, surrounding = scene.surrounding.density;
@@ -25,7 +42,7 @@ tmp<volScalarField> mixture_density(const Scene& scene, const volScalarField& fr
 FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarField& fraction)
     : velocity(stored(mesh, "U", IOobject::MUST_READ), mesh),
       reduced_pressure(stored(mesh, "p_rgh", IOobject::MUST_READ), mesh),
-      flux(stored(mesh, "phi", IOobject::READ_IF_PRESENT), fvc::flux(velocity)),
+      flux(stored(mesh, "phi", IOobject::READ_IF_PRESENT), fvc::flux(exchanged(velocity))),
       fraction_flux(working(mesh, "fraction_flux"), flux * fvc::interpolate(fraction)),
       density(working(mesh, "density"), mixture_density(scene, fraction)),
       mass_flux(working(mesh, "mass_flux"), fvc::interpolate(density) * flux),
@@ -33,6 +50,7 @@ FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarFi
       gravity_potential_faces(working(mesh, "ghf"), mesh, dimensionedScalar(dimAcceleration * dimLength, Zero)),
       reference_cell(0), reference_pressure(0)
 {
+    exchanged(reduced_pressure);
     density.oldTime();
     if (scene.physics.gravity) {
         const uniformDimensionedVectorField g(
@@ -47,6 +65,7 @@ FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarFi
 
 HeatFields::HeatFields(const fvMesh& mesh, bool solved) : temperature(stored(mesh, "T", IOobject::MUST_READ), mesh)
 {
+    exchanged(temperature);
     if (solved)
         peak.reset(new volScalarField(stored(mesh, "peak_temperature", IOobject::READ_IF_PRESENT), temperature));
 }
@@ -54,6 +73,7 @@ HeatFields::HeatFields(const fvMesh& mesh, bool solved) : temperature(stored(mes
 Fields::Fields(const fvMesh& solver_mesh, const Scene& scene)
     : mesh(solver_mesh), fraction(stored(mesh, "fraction", IOobject::MUST_READ), mesh)
 {
+    exchanged(fraction);
     if (scene.physics.flow) flow.reset(new FlowFields(mesh, scene, fraction));
     if (scene.physics.has_temperature()) heat.reset(new HeatFields(mesh, scene.physics.heat));
 }

@@ -9,10 +9,10 @@
 ///
 /// H is taken toward the surrounding, so a drop has κ > 0. A cell has a value if all columns of its 3 × 3 stencil go
 /// from full to empty within reach and the stencil does not leave the mesh through an open or periodic side; the others
-/// keep the curvature that they had. (To give them the mean of their neighbours, or the curvature of a paraboloid fitted
-/// to the heights around them, was tried: a steel drop of five cells a radius is then quieter at first, 0.01 m/s against
-/// 0.3, and has shaken itself apart after 0.3 ms.) Second order on smooth interfaces, where the divergence of a smoothed normal is
-/// several per cent off at every resolution.
+/// keep the curvature that they had. (To give them the mean of their neighbours, or the curvature of a paraboloid
+/// fitted to the heights around them, was tried: a steel drop of five cells a radius is then quieter at first, 0.01 m/s
+/// against 0.3, and has shaken itself apart after 0.3 ms.) Second order on smooth interfaces, where the divergence of a
+/// smoothed normal is several per cent off at every resolution.
 #pragma once
 
 #include "block_grid.hpp"

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import signal
-import subprocess
 
 import numpy as np
 import pytest
 
-from reference_openfoam import blocks, case_folder, case_writer, face_fields, moving_mesh, remap, resolved_case
+from reference_openfoam import case_folder, face_fields, moving_mesh, remap, resolved_case
 from reference_openfoam.grid import Grid
 from tests.reference_openfoam import small_cases
 from tests.reference_openfoam.test_running import last_states, start

@@ -231,3 +231,26 @@ def test_a_field_that_is_no_number_is_stopped_with_place_and_time(threads, tmp_p
     (newest/"T").write_bytes(raw)
     record = stopped(small_cases.solve(data, tmp_path, "--resume"), tmp_path)
     assert "the temperature is not a number at t = " in record["diagnosis"] and "x = (" in record["diagnosis"]
+
+
+def test_a_frozen_temperature_drives_the_same_flow_on_two_ranks(tmp_path):
+    # nothing ever solves for this temperature: what a rank knows beyond its cut is what it fetched at the start
+    data = small_cases.case(
+        spacing=5e-5, dimensions=2, physics=["flow", "gravity", "marangoni"], gravity=[0.0, 0.0, -25.0],
+        materials={"liquid": {"density": 1000.0, "viscosity": 0.01, "surface_tension_slope": -4e-4},
+                   "gas": {"density": 1.0, "viscosity": 1e-5}},
+        surrounding={"material": "gas", "resolved": False, "temperature": 300.0, "pressure": 101325.0, "convection_coefficient": 0.0},
+        domain={"lower": [0.0, 0.0, 0.0], "upper": [6e-3, 0.0, 1.4e-3],
+                "boundaries": {side: small_cases.WALL for side in ("x_min", "x_max", "z_min")} | {"z_max": small_cases.OPEN}},
+        initial={"temperature": 300.0, "temperature_gradient": [1000.0, 0.0, 0.0]},
+        bodies=[{"shape": "box", "material": "liquid", "state": "liquid", "lower": [0.0, 0.0, 0.0], "upper": [6e-3, 0.0, 1e-3]}],
+        time={"end": 5e-3, "output_interval": 5e-3})
+    fields = []
+    for threads in ("1", "2"):
+        (tmp_path/threads).mkdir()
+        record = small_cases.completed(data, tmp_path/threads, "--threads", threads)
+        assert record["cost"]["threads"] == int(threads)
+        fields.append(small_cases.last_fields(data, tmp_path/threads)[0])
+    speeds = [field["velocity"][field["fraction"] > 0.5] for field in fields]
+    assert np.abs(speeds[0]).max() > 1e-3
+    assert np.abs(speeds[0] - speeds[1]).max() < 1e-4*np.abs(speeds[0]).max()
