@@ -133,9 +133,9 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const double delta = surface.delta[i];
             Vector force_density{};
             if (with_tension_)
-                force_density +=
-                    surface_tension_force(mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference,
-                                          surface.curvature[i], normal, delta);
+                force_density += surface_tension_force(
+                    mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference, surface.curvature[i],
+                    surface.curvature_gradient[i], scene_.two_phase ? 0.0 : surface.depth[i], normal, delta);
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             if (with_recoil_)

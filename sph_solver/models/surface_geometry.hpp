@@ -24,7 +24,8 @@ struct SurfaceFields
     ScalarField& depth;         ///< distance below the surface, positive in the liquid, m
     ScalarField& raw_curvature; ///< ∇·n̂, 1/m
     ScalarField& curvature_valid;
-    ScalarField& curvature; ///< raw_curvature smoothed over the band
+    ScalarField& curvature;          ///< raw_curvature smoothed over the band
+    VectorField& curvature_gradient; ///< ∇κ along the surface, 1/m²
 
     static SurfaceFields register_in(Particles& particles)
     {
@@ -34,10 +35,19 @@ struct SurfaceFields
         const auto vector = [&](const char* name, const char* unit) -> VectorField& {
             return particles.add_vector({name, unit});
         };
-        return {scalar("colour", "1"),          vector("colour_gradient", "1/m"), scalar("smoothed_colour", "1"),
-                scalar("companions", "1"),      vector("surface_normal", "1"),    vector("smoothed_normal", "1"),
-                scalar("surface_delta", "1/m"), scalar("surface_band", "1"),      scalar("surface_depth", "m"),
-                scalar("raw_curvature", "1/m"), scalar("curvature_valid", "1"),   scalar("curvature", "1/m")};
+        return {scalar("colour", "1"),
+                vector("colour_gradient", "1/m"),
+                scalar("smoothed_colour", "1"),
+                scalar("companions", "1"),
+                vector("surface_normal", "1"),
+                vector("smoothed_normal", "1"),
+                scalar("surface_delta", "1/m"),
+                scalar("surface_band", "1"),
+                scalar("surface_depth", "m"),
+                scalar("raw_curvature", "1/m"),
+                scalar("curvature_valid", "1"),
+                scalar("curvature", "1/m"),
+                vector("curvature_gradient", "1/m2")};
     }
 };
 
@@ -191,8 +201,16 @@ struct TangentPlaneCurvature
     int dimensions;
     double smallest_delta;     ///< below it a particle takes no part, 1/m
     double greatest_curvature; ///< limit, 1/m
+    bool at_surface;           ///< of the surface itself, not of the parallel one through the particle
     const ScalarField& volume;
     SurfaceFields surface;
+
+    /// Sum of the principal curvatures k/(1 + k s) of the surface that lies at the distance s outside one whose
+    /// curvatures have the sum and the product given; no nearer to its centres than half the radius.
+    static double of_parallel_surface(double sum, double product, double distance)
+    {
+        return (sum + 2.0 * product * distance) / std::max(0.5, 1.0 + sum * distance + product * distance * distance);
+    }
 
     struct Near
     {
@@ -254,24 +272,29 @@ struct TangentPlaneCurvature
             surface.curvature_valid[i] = 0.0;
             if (!(surface.delta[i] >= smallest_delta)) continue;
             const double xx = sum.xx[lane], xy = sum.xy[lane], yy = sum.yy[lane];
-            double curvature = 0.0;
+            double trace = 0.0, product = 0.0;
             if (dimensions == 2) {
                 if (!(xx > 0.0)) continue;
-                curvature = sum.n1_x[lane] / xx;
+                trace = sum.n1_x[lane] / xx;
             }
             else {
                 const double determinant = xx * yy - xy * xy;
                 if (!(determinant > 1e-3 * (xx + yy) * (xx + yy))) continue;
-                curvature = (sum.n1_x[lane] * yy - sum.n1_y[lane] * xy + sum.n2_y[lane] * xx - sum.n2_x[lane] * xy) /
-                            determinant;
+                trace = (sum.n1_x[lane] * yy - sum.n1_y[lane] * xy + sum.n2_y[lane] * xx - sum.n2_x[lane] * xy) /
+                        determinant;
+                product = (sum.n1_x[lane] * sum.n2_y[lane] - sum.n1_y[lane] * sum.n2_x[lane]) / determinant;
             }
+            const double curvature = at_surface ? of_parallel_surface(trace, product, surface.depth[i]) : trace;
             surface.raw_curvature[i] = std::clamp(curvature, -greatest_curvature, greatest_curvature);
             surface.curvature_valid[i] = 1.0;
         }
     }
 };
 
-/// κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles whose fit succeeded      [1/m]
+/// Curvature smoothed over the particles whose fit succeeded, and how it changes along the surface:
+///
+///   κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij      [1/m]
+///   ∇κ_i = [Σ_j κ_j δ_j ∇W_ij − κ_i Σ_j δ_j ∇W_ij] / Σ_j δ_j W_ij, of which the tangential part is kept      [1/m²]
 struct CurvatureSmoothing
 {
     Mobility mobility;
@@ -286,6 +309,7 @@ struct CurvatureSmoothing
     struct Sum
     {
         Lanes curvature{}, weight{};
+        VectorLanes curvature_gradient{}, weight_gradient{};
     };
 
     bool idle(const Cluster& cluster) const
@@ -303,6 +327,8 @@ struct CurvatureSmoothing
     {
         sum.curvature += j.weighted_curvature * pair.kernel;
         sum.weight += j.weight * pair.kernel;
+        sum.curvature_gradient += (j.weighted_curvature * pair.gradient_over_r) * pair.offset;
+        sum.weight_gradient += (j.weight * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -311,6 +337,13 @@ struct CurvatureSmoothing
             if (mobility.weight[i] == 0.0) continue;
             const bool bears_force = surface.delta[i] > 0.0 && sum.weight[lane] > 0.0;
             surface.curvature[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
+            const auto at = [&](const VectorLanes& v) { return Vector{v.x[lane], v.y[lane], v.z[lane]}; };
+            Vector gradient{};
+            if (bears_force)
+                gradient = (1.0 / sum.weight[lane]) *
+                           (at(sum.curvature_gradient) - surface.curvature[i] * at(sum.weight_gradient));
+            const Vector normal = surface.normal[i];
+            surface.curvature_gradient.set(i, gradient - dot(gradient, normal) * normal);
         }
     }
 };
