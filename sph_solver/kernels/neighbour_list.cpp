@@ -1,8 +1,7 @@
 #include "kernels/neighbour_list.hpp"
-#include "kernels/field_lanes.hpp"
+#include "kernels/cluster_sieve.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -21,53 +20,6 @@ constexpr Index clusters_per_chunk = 256;
 /// clusters spread, have not grown by more than this factor since the build. Both found by timing, neither is sharp.
 constexpr double greatest_share = 0.4, greatest_growth = 1.3;
 
-/// A cluster's coordinates in float, in either precision: lists have a margin for what that leaves out.
-using Narrow = float __attribute__((vector_size(4 * lane_count)));
-
-Narrow narrow(const Array& coordinate, Index first, double middle)
-{
-    Narrow lanes;
-    const double* values = coordinate.data() + first;
-    for (int lane = 0; lane < lane_count; ++lane)
-        lanes[lane] = static_cast<float>(values[lane] - middle);
-    return lanes;
-}
-#if defined(__AVX512F__) && CUPEL_REAL_IS_FLOAT
-// By name, where the compiler, minding what is no number, would take several instructions for one.
-Narrow lesser(const Narrow& a, const Narrow& b)
-{
-    return reinterpret_cast<Narrow>(
-        _mm512_maskz_min_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
-}
-unsigned lanes_below(const Narrow& a, float limit)
-{
-    return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), _mm512_set1_ps(limit), _CMP_LT_OQ);
-}
-#elif defined(__AVX__) && !CUPEL_REAL_IS_FLOAT
-Narrow lesser(const Narrow& a, const Narrow& b)
-{
-    return reinterpret_cast<Narrow>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
-}
-unsigned lanes_below(const Narrow& a, float limit)
-{
-    return static_cast<unsigned>(
-        _mm256_movemask_ps(_mm256_cmp_ps(reinterpret_cast<__m256>(a), _mm256_set1_ps(limit), _CMP_LT_OQ)));
-}
-#else
-Narrow lesser(const Narrow& a, const Narrow& b)
-{
-    return a < b ? a : b;
-}
-/// One bit for each lane below a limit, the first lowest.
-unsigned lanes_below(const Narrow& a, float limit)
-{
-    unsigned bits = 0;
-    for (int lane = 0; lane < lane_count; ++lane)
-        bits |= static_cast<unsigned>(a[lane] < limit) << lane;
-    return bits;
-}
-#endif
-
 /// Of `count` columns the one that a place is in, or the outermost; the first where it is no number.
 Index column(double place, Index count)
 {
@@ -81,29 +33,6 @@ Vector least(const Vector& a, const Vector& b)
 Vector most(const Vector& a, const Vector& b)
 {
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
-Index neighbours_in(std::span<const Run> runs)
-{
-    return std::accumulate(runs.begin(), runs.end(), Index{0},
-                           [](Index sum, const Run& run) { return sum + run.count; });
-}
-
-/// Appends first + bit for each bit that is set, as runs, to a list that may end with the particle before.
-void append_runs(std::vector<Run>& list, std::size_t begin, Index first, unsigned bits)
-{
-    while (bits != 0) {
-        const int skipped = std::countr_zero(bits);
-        bits >>= skipped;
-        first += skipped;
-        const int count = std::countr_one(bits);
-        if (list.size() > begin && list.back().first + list.back().count == first)
-            list.back().count += count;
-        else
-            list.push_back({first, count});
-        bits >>= count;
-        first += count;
-    }
 }
 
 } // namespace
