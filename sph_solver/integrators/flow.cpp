@@ -8,6 +8,7 @@
 #include "models/artificial_viscosity.hpp"
 #include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
+#include "models/surface_load.hpp"
 #include "models/surface_temperature.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -46,6 +47,14 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
     if (temperature_ && (with_tension_ || with_recoil_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
+    if (with_tension_ || with_recoil_) {
+        load_ = &particles_.add_scalar({"surface_load", "Pa"});
+        // The band of two phases lies about the interface, that of a free surface inside it.
+        if (!scene.two_phase) {
+            mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
+            load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
+        }
+    }
     if (with_tension_ && !scene.two_phase) {
         unresolved_ = &particles_.add_scalar({"unresolved", "1"});
         bonds_ = Cohesion::bonds_across_a_plane(scene.dimensions);
@@ -119,12 +128,31 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                            temperature_, *unresolved_, force_});
 }
 
+void Flow::find_load(const Neighbourhood& neighbourhood)
+{
+    const SurfaceFields& surface = surface_->fields();
+    neighbourhood.for_each_moving([&](Index i) {
+        double load = 0.0;
+        if (surface.delta[i] > 0.0) {
+            if (with_tension_)
+                load += surface.curvature[i] *
+                        (mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference);
+            if (with_recoil_) load += recoil_pressure(vapour_pressure_, (*mean_temperature_)[i]);
+        }
+        (*load_)[i] = load;
+    });
+    if (load_gradient_)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
+}
+
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
     if (mean_temperature_)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
                                          surface_->fields().delta, *mean_temperature_});
+    if (load_) find_load(neighbourhood);
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         if (surface_ && surface_->fields().delta[i] > 0.0) {
@@ -132,15 +160,13 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (with_tension_)
-                force_density += surface_tension_force(
-                    mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference, surface.curvature[i],
-                    surface.curvature_gradient[i], scene_.two_phase ? 0.0 : surface.depth[i], normal, delta);
+            if (load_gradient_)
+                force_density +=
+                    surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
+            else if (load_)
+                force_density += surface_load_force((*load_)[i], {}, 0.0, normal, delta);
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
-            if (with_recoil_)
-                force_density +=
-                    recoil_force(recoil_pressure(vapour_pressure_, (*mean_temperature_)[i]), normal, delta);
             acceleration += (1.0 / particles_.density[i]) * force_density;
         }
         acceleration_.set(i, acceleration);

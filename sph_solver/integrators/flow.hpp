@@ -67,9 +67,15 @@ protected:
     VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
 
 private:
+    /// What presses on the surface, and how it changes along it.
+    void find_load(const Neighbourhood& neighbourhood);
+
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
+    ScalarField* load_ = nullptr;      ///< only where tension or recoil presses on a surface
+    ScalarField* mean_load_ = nullptr; ///< only where that surface is free
+    VectorField* load_gradient_ = nullptr;
     ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
     double bonds_ = 0.0;
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it

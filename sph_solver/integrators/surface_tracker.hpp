@@ -31,7 +31,6 @@ public:
         fields_.delta[place] = 0.0;
         fields_.curvature_valid[place] = 0.0;
         fields_.curvature[place] = 0.0;
-        fields_.curvature_gradient.set(place, {});
     }
     /// Whether a particle has too few companions to be part of a body of liquid. As of the last update.
     bool is_spray(Index i) const { return fields_.companions[i] < fewest_companions(); }

@@ -24,8 +24,7 @@ struct SurfaceFields
     ScalarField& depth;         ///< distance below the surface, positive in the liquid, m
     ScalarField& raw_curvature; ///< ∇·n̂, 1/m
     ScalarField& curvature_valid;
-    ScalarField& curvature;          ///< raw_curvature smoothed over the band
-    VectorField& curvature_gradient; ///< ∇κ along the surface, 1/m²
+    ScalarField& curvature; ///< raw_curvature smoothed over the band
 
     static SurfaceFields register_in(Particles& particles)
     {
@@ -35,19 +34,10 @@ struct SurfaceFields
         const auto vector = [&](const char* name, const char* unit) -> VectorField& {
             return particles.add_vector({name, unit});
         };
-        return {scalar("colour", "1"),
-                vector("colour_gradient", "1/m"),
-                scalar("smoothed_colour", "1"),
-                scalar("companions", "1"),
-                vector("surface_normal", "1"),
-                vector("smoothed_normal", "1"),
-                scalar("surface_delta", "1/m"),
-                scalar("surface_band", "1"),
-                scalar("surface_depth", "m"),
-                scalar("raw_curvature", "1/m"),
-                scalar("curvature_valid", "1"),
-                scalar("curvature", "1/m"),
-                vector("curvature_gradient", "1/m2")};
+        return {scalar("colour", "1"),          vector("colour_gradient", "1/m"), scalar("smoothed_colour", "1"),
+                scalar("companions", "1"),      vector("surface_normal", "1"),    vector("smoothed_normal", "1"),
+                scalar("surface_delta", "1/m"), scalar("surface_band", "1"),      scalar("surface_depth", "m"),
+                scalar("raw_curvature", "1/m"), scalar("curvature_valid", "1"),   scalar("curvature", "1/m")};
     }
 };
 
@@ -291,10 +281,7 @@ struct TangentPlaneCurvature
     }
 };
 
-/// Curvature smoothed over the particles whose fit succeeded, and how it changes along the surface:
-///
-///   κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij      [1/m]
-///   ∇κ_i = [Σ_j κ_j δ_j ∇W_ij − κ_i Σ_j δ_j ∇W_ij] / Σ_j δ_j W_ij, of which the tangential part is kept      [1/m²]
+/// κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles whose fit succeeded      [1/m]
 struct CurvatureSmoothing
 {
     Mobility mobility;
@@ -309,7 +296,6 @@ struct CurvatureSmoothing
     struct Sum
     {
         Lanes curvature{}, weight{};
-        VectorLanes curvature_gradient{}, weight_gradient{};
     };
 
     bool idle(const Cluster& cluster) const
@@ -327,8 +313,6 @@ struct CurvatureSmoothing
     {
         sum.curvature += j.weighted_curvature * pair.kernel;
         sum.weight += j.weight * pair.kernel;
-        sum.curvature_gradient += (j.weighted_curvature * pair.gradient_over_r) * pair.offset;
-        sum.weight_gradient += (j.weight * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -337,13 +321,6 @@ struct CurvatureSmoothing
             if (mobility.weight[i] == 0.0) continue;
             const bool bears_force = surface.delta[i] > 0.0 && sum.weight[lane] > 0.0;
             surface.curvature[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
-            const auto at = [&](const VectorLanes& v) { return Vector{v.x[lane], v.y[lane], v.z[lane]}; };
-            Vector gradient{};
-            if (bears_force)
-                gradient = (1.0 / sum.weight[lane]) *
-                           (at(sum.curvature_gradient) - surface.curvature[i] * at(sum.weight_gradient));
-            const Vector normal = surface.normal[i];
-            surface.curvature_gradient.set(i, gradient - dot(gradient, normal) * normal);
         }
     }
 };
