@@ -280,5 +280,5 @@ def _write_system(folder: Path, flow: bool) -> None:
             "p_rgh": pressure,
             "p_rghFinal": pressure | {"tolerance": 1e-9, "relTol": 0.0},
             "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},
-            "T": energy | {"tolerance": 1e-12, "relTol": 1e-6}},
+            "T": energy | {"tolerance": 1e-14, "relTol": 1e-8}},
         "PISO": {"p_rghRefCell": 0, "p_rghRefValue": 0}})
