@@ -28,7 +28,7 @@ NUMERICS = {
     "curvature_smoothing_passes": 4,
     "curvature_averaging_passes": 1,
     "mushy_drag_constant": 1e13,
-    "momentum_predictor": False,
+    "momentum_predictor": True,
     "pressure_correctors": 2,
     "temperature_tolerance": 0.5,
     "energy_iterations": 25,
@@ -273,12 +273,12 @@ def _write_system(folder: Path, flow: bool) -> None:
         "laplacianSchemes": {"default": "Gauss linear orthogonal"},
         "interpolationSchemes": {"default": "linear"},
         "snGradSchemes": {"default": "orthogonal"}})
-    pressure = {"solver": "PCG", "preconditioner": "DIC", "tolerance": 1e-8, "relTol": 0.01, "maxIter": 500}
+    pressure = {"solver": "PCG", "preconditioner": "DIC", "tolerance": 1e-8, "relTol": 0.001, "maxIter": 500}
     write_dictionary(system/"fvSolution", {
         "solvers": {
             "fraction": {"nLimiterIter": 3},
             "p_rgh": pressure,
-            "p_rghFinal": pressure | {"relTol": 0.0},
+            "p_rghFinal": pressure | {"tolerance": 1e-9, "relTol": 0.0},
             "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},
-            "T": energy | {"tolerance": 1e-12, "relTol": 1e-6}},
+            "T": energy | {"tolerance": 1e-14, "relTol": 1e-8}},
         "PISO": {"p_rghRefCell": 0, "p_rghRefValue": 0}})

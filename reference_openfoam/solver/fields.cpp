@@ -31,6 +31,19 @@ GeometricField<Type, fvPatchField, volMesh>& exchanged(GeometricField<Type, fvPa
     return field;
 }
 
+/// The part of `whole` along axes with periodic sides: no potential is periodic whose gradient it would be.
+vector along_periodic_axes(const fvMesh& mesh, const vector& whole)
+{
+    vector part(Zero);
+    forAll (mesh.boundary(), patch) {
+        if (mesh.boundary()[patch].type() != "cyclic") continue;
+        const vector area = gSum(cmptMag(mesh.boundary()[patch].Sf())());
+        for (int axis = 0; axis < 3; ++axis)
+            if (area[axis] > 0.9 * mag(area)) part[axis] = whole[axis];
+    }
+    return part;
+}
+
 tmp<volScalarField> mixture_density(const Scene& scene, const volScalarField& fraction)
 {
     const scalar primary = scene.primary.density, surrounding = scene.surrounding.density;
@@ -48,15 +61,17 @@ FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarFi
       mass_flux(working(mesh, "mass_flux"), fvc::interpolate(density) * flux),
       gravity_potential(working(mesh, "gh"), mesh, dimensionedScalar(dimAcceleration * dimLength, Zero)),
       gravity_potential_faces(working(mesh, "ghf"), mesh, dimensionedScalar(dimAcceleration * dimLength, Zero)),
-      reference_cell(0), reference_pressure(0)
+      periodic_gravity(Zero), reference_cell(0), reference_pressure(0)
 {
     exchanged(reduced_pressure);
     density.oldTime();
     if (scene.physics.gravity) {
         const uniformDimensionedVectorField g(
             IOobject("g", mesh.time().constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE));
-        gravity_potential = g & mesh.C();
-        gravity_potential_faces = g & mesh.Cf();
+        periodic_gravity = along_periodic_axes(mesh, g.value());
+        const dimensionedVector with_potential("g", dimAcceleration, g.value() - periodic_gravity);
+        gravity_potential = with_potential & mesh.C();
+        gravity_potential_faces = with_potential & mesh.Cf();
     }
     setRefCell(reduced_pressure, mesh.solutionDict().subDict("PISO"), reference_cell, reference_pressure);
     mesh.setFluxRequired(reduced_pressure.name());

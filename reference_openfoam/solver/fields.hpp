@@ -17,9 +17,10 @@ struct FlowFields
     surfaceScalarField fraction_flux; ///< the primary material's share of it [m³/s], as MULES moved it
     volScalarField density;           ///< ρ [kg/m³]
     surfaceScalarField mass_flux;     ///< [kg/s]
-    volScalarField gravity_potential; ///< g·x [m²/s²]
+    volScalarField gravity_potential; ///< g·x [m²/s²], g without its part along periodic axes
     surfaceScalarField gravity_potential_faces;
-    label reference_cell; ///< where the pressure is pinned if no boundary sets it
+    vector periodic_gravity; ///< that part [m/s²]: a body force, for g·x is not periodic
+    label reference_cell;    ///< where the pressure is pinned if no boundary sets it
     scalar reference_pressure;
 };
 

@@ -48,6 +48,8 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
                             fvm::laplacian(fvc::interpolate(viscosity), U) -
                             fvc::div(viscosity * dev2(Foam::T(fvc::grad(U)))));
     if (scene.physics.melting) momentum += fvm::Sp(mushy_drag(scene, fields), U);
+    if (mag(flow.periodic_gravity) > 0)
+        momentum -= flow.density * dimensionedVector("periodic_gravity", dimAcceleration, flow.periodic_gravity);
     if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, geometry);
 
     const surfaceScalarField forces(face_forces(scene, fields, geometry));

@@ -3,8 +3,8 @@
 ///
 ///   ∂(ρu)/∂t + ∇·(ρuu) = −∇p_rgh − (g·x)∇ρ + ∇·[μ(∇u + ∇uᵀ)] + F_faces + F_cells − K u,      ∇·u = 0
 ///
-/// F_faces: capillary force, recoil. F_cells: Marangoni. K: mushy drag, implicit. Each is there only if the scene names
-/// it.
+/// F_faces: capillary force, recoil. F_cells: Marangoni, and ρg along periodic axes, where g·x cannot be periodic. K:
+/// mushy drag, implicit. Each is there only if the scene names it.
 #pragma once
 
 #include "interface_geometry.hpp"

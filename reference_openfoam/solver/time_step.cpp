@@ -54,10 +54,9 @@ scalar TimeStep::next(scalar time, scalar target)
                      factor * Foam::sqrt((primary.density + surrounding.density) * pow3(smallest_cell_) /
                                          (4 * constant::mathematical::pi * primary.surface_tension_at_reference)));
         }
-        consider(
-            "viscous",
-            factor * sqr(smallest_cell_) /
-                max(max(primary.viscosity / primary.density, surrounding.viscosity / surrounding.density), VSMALL));
+        const scalar viscosity =
+            max(4 * primary.viscosity / primary.density, surrounding.viscosity / surrounding.density);
+        consider("viscous", factor * sqr(smallest_cell_) / max(viscosity, VSMALL));
         if (scene_.physics.gravity)
             consider("gravity", factor * scene_.numerics.get<scalar>("courant_limit") * smallest_cell_ /
                                     max(gravity_speed_, VSMALL));

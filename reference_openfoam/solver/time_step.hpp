@@ -2,7 +2,8 @@
 ///
 ///   capillary     √((ρ₁ + ρ₂) Δx³/(4πσ))        (Brackbill 1992): the shortest capillary wave is followed
 ///   Courant       C Δx/|u| over all cells, and a smaller C over cells at the interface
-///   viscous       Δx²/ν of the more mobile fluid: the pressure correctors then converge on the implicit viscous term
+///   viscous       Δx²/4ν of the primary material (accuracy: the implicit term is of first order in time), Δx²/ν of the
+///                 other
 ///   gravity       C Δx/√(g H), H the scene's height: gravity waves are followed
 ///   laser         a quarter of the spot radius of travel
 ///   diffusion     Δx²/(4a) of the liquid: only when nothing moves (accuracy; the scheme itself is implicit)
