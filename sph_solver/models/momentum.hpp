@@ -57,9 +57,12 @@ struct FreeSurfaceMomentum
 ///   m_i dv_i/dt = −Σ_j (V_i² + V_j²) p̃_ij ∇W_ij + Σ_j μ_ij (V_i² + V_j²) (1/r dW/dr) (v_i − v_j)      [N]
 ///   p̃_ij = (ρ_j p_i + ρ_i p_j)/(ρ_i + ρ_j),   μ_ij = 2 μ_i μ_j/(μ_i + μ_j)
 ///
-/// and the transport force of the background pressure p_b, which moves positions and not momentum:
+/// and the transport velocity of a background pressure p_b = β ρ_i c₀², which moves positions and not momentum:
 ///
-///   b_i = −p_b Σ_j (V_i² + V_j²) ∇W_ij      [N]
+///   δu_i = −½ Δt_a β c₀²/V_i Σ_j (V_i² + V_j²) ∇W_ij,   Δt_a = 0.4 Δx/c₀      [m/s]
+///
+/// As published Δt_a is the time step and β one; this one does not change with what else limits the step, and with the
+/// particle's own density as heavy and light phases differ.
 struct TwoPhaseMomentum
 {
     Mobility mobility;
@@ -68,9 +71,9 @@ struct TwoPhaseMomentum
     const ScalarField& pressure;
     const ScalarField& viscosity;
     const VectorField& velocity;
-    double background_pressure; ///< p_b, Pa
+    double transport; ///< ½ Δt_a β c₀² = 0.2 β c₀ Δx, m²/s
     VectorField& force;
-    VectorField& transport_force;
+    VectorField& transport_velocity;
 
     struct Near
     {
@@ -84,7 +87,7 @@ struct TwoPhaseMomentum
     };
     struct Sum
     {
-        VectorLanes force{}, transport{};
+        VectorLanes force{}, unevenness{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -104,13 +107,13 @@ struct TwoPhaseMomentum
         const Lanes mean_viscosity = 2.0 * i.viscosity * j.viscosity / (i.viscosity + j.viscosity);
         sum.force -= (weight * mean_pressure) * pair.offset;
         sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(j.velocity));
-        sum.transport -= (weight * background_pressure) * pair.offset;
+        sum.unevenness += weight * pair.offset;
     }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
         store_if(force, cluster, sum.force, liquid);
-        store_if(transport_force, cluster, sum.transport, liquid);
+        store_if(transport_velocity, cluster, (-transport / i.volume) * sum.unevenness, liquid);
     }
 };
 

@@ -104,7 +104,7 @@ TEST(Simulation, NumberOfThreadsDoesNotChangeABit)
 TEST(Simulation, ComputesOnlyWhatTheCaseNames)
 {
     const Simulation plain = simulate(heavy_pool(), 1);
-    for (const char* field : {"temperature", "enthalpy", "curvature_of_nothing", "solid_colour", "transport_force"})
+    for (const char* field : {"temperature", "enthalpy", "curvature_of_nothing", "solid_colour", "transport_velocity"})
         EXPECT_FALSE(plain.particles().has(field)) << field;
     Case still = heavy_pool();
     still.numerics.shifting = 0.0;
