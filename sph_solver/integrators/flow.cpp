@@ -35,6 +35,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
       with_recoil_(scene.definition.requires_physics("recoil"))
 {
     if (!scene.definition.requires_physics("gravity")) gravity_ = {};
+    if (scene.two_phase) {
+        for (const Material& material : scene.materials)
+            mean_density_ += material.density / static_cast<double>(scene.materials.size());
+    }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
@@ -135,13 +139,13 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             if (with_tension_)
                 force_density += surface_tension_force(
                     mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference, surface.curvature[i],
-                    surface.curvature_gradient[i], scene_.two_phase ? 0.0 : surface.depth[i], normal, delta);
+                    surface.curvature_gradient[i], surface.depth[i], normal, delta);
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             if (with_recoil_)
                 force_density +=
                     recoil_force(recoil_pressure(vapour_pressure_, (*mean_temperature_)[i]), normal, delta);
-            acceleration += (1.0 / particles_.density[i]) * force_density;
+            acceleration += (1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i])) * force_density;
         }
         acceleration_.set(i, acceleration);
     });
