@@ -36,6 +36,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
       with_recoil_(scene.definition.requires_physics("recoil"))
 {
     if (!scene.definition.requires_physics("gravity")) gravity_ = {};
+    if (scene.two_phase) {
+        for (const Material& material : scene.materials)
+            mean_density_ += material.density / static_cast<double>(scene.materials.size());
+    }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
@@ -49,11 +53,8 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
-        // The band of two phases lies about the interface, that of a free surface inside it.
-        if (!scene.two_phase) {
-            mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
-            load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
-        }
+        mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
+        load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
     }
     if (with_tension_ && !scene.two_phase) {
         unresolved_ = &particles_.add_scalar({"unresolved", "1"});
@@ -141,9 +142,8 @@ void Flow::find_load(const Neighbourhood& neighbourhood)
         }
         (*load_)[i] = load;
     });
-    if (load_gradient_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
@@ -160,14 +160,12 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (load_gradient_)
+            if (load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
-            else if (load_)
-                force_density += surface_load_force((*load_)[i], {}, 0.0, normal, delta);
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
-            acceleration += (1.0 / particles_.density[i]) * force_density;
+            acceleration += (1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i])) * force_density;
         }
         acceleration_.set(i, acceleration);
     });

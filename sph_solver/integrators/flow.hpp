@@ -64,6 +64,10 @@ protected:
     std::unique_ptr<SurfaceTracker> surface_;
 
     ScalarField* temperature_ = nullptr;
+    /// ½(ρ₁ + ρ₂) of two phases, kg/m³; 0 with one. Surface forces there have the weight 2ρ_i/(ρ₁ + ρ₂) (Brackbill,
+    /// Kothe, Zemach 1992, eq. 31), whose mean over the band is one: both phases are driven alike, and what is uneven
+    /// in them does not stir a light phase that has no inertia.
+    double mean_density_ = 0.0;
     VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
 
 private:

@@ -99,10 +99,7 @@ FlowParameters derive_flow_parameters(const Scene& scene)
 
     const double sound_speed = numerics.sound_speed.value_or(numerics.sound_speed_factor * parameters.reference_speed);
     parameters.equation_of_state = {sound_speed, numerics.formulation == "paper" ? 7.0 : 1.0};
-    double heaviest = 0.0;
-    for (const Material& material : scene.materials)
-        heaviest = std::max(heaviest, material.density);
-    parameters.background_pressure = numerics.background_pressure_factor * heaviest * sound_speed * sound_speed;
+    parameters.transport = 0.2 * numerics.background_pressure_factor * sound_speed * scene.spacing;
     return parameters;
 }
 
@@ -110,12 +107,15 @@ TimeStepLimits derive_time_step_limits(const Scene& scene, const FlowParameters&
 {
     const double dx = scene.spacing, h = parameters.smoothing_length;
     TimeStepLimits limits;
-    limits["acoustic"] = (scene.two_phase ? 0.4 : 0.35) * dx / parameters.equation_of_state.sound_speed;
-    double viscous = std::numeric_limits<double>::infinity(), lightest = viscous;
+    double viscous = std::numeric_limits<double>::infinity(), lightest = viscous, heaviest = 0.0;
     for (const Material& material : scene.materials) {
         viscous = std::min(viscous, 0.125 * material.density * h * h / material.viscosity.value());
         lightest = std::min(lightest, material.density);
+        heaviest = std::max(heaviest, material.density);
     }
+    // Both phases have the heavier one's stiffness: sound is faster in the lighter one by the root of their ratio.
+    limits["acoustic"] =
+        (scene.two_phase ? 0.4 * std::sqrt(lightest / heaviest) : 0.35) * dx / parameters.equation_of_state.sound_speed;
     limits["viscous"] = viscous;
     if (scene.definition.requires_physics("surface_tension"))
         limits["capillary"] = 0.4 * std::sqrt(lightest * dx * dx * dx /

@@ -159,9 +159,8 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
     const double smallest = (two_phase_ ? thresholds_.curvature_two_phase : thresholds_.curvature_free_surface) / h_;
     // A drop of two spacings across is the smallest that curvature can mean anything for.
     const double greatest = (two_phase_ ? 1.0 : 0.4) / spacing_;
-    for_each_pair(
-        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-        TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, !two_phase_, particles_.volume, fields_});
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, particles_.volume, fields_});
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   CurvatureSmoothing{mobility_, fields_});
 }

@@ -4,19 +4,26 @@
 
 #include "models/density_summation.hpp"
 #include "models/momentum.hpp"
+#include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
 
 TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), viscosity_(particles_.add_scalar({"viscosity", "Pa s"})),
-      transport_force_(particles_.add_vector({"transport_force", "N"}))
+      transport_velocity_(particles_.add_vector({"transport_velocity", "m/s"}))
 {
     double heaviest = 0.0;
     for (const Material& material : scene.materials)
         heaviest = std::max(heaviest, material.density);
-    if (temperature_gradient_)
-        correction_ = std::make_unique<CorrectionMatrix>(CorrectionMatrix::register_in(particles_));
+    double most_viscous = 0.0;
+    least_viscosity_ = scene.materials.front().viscosity.value();
+    for (const Material& material : scene.materials) {
+        least_viscosity_ = std::min(least_viscosity_, material.viscosity.value());
+        most_viscous = std::max(most_viscous, material.viscosity.value());
+    }
+    if (most_viscous > least_viscosity_) stress_gradient_.emplace(VelocityGradientFields::register_in(particles_));
+    if (temperature_gradient_ || stress_gradient_) correction_.emplace(CorrectionMatrix::register_in(particles_));
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
     for (Index i = 0; i < particles_.count(); ++i)
@@ -26,8 +33,8 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
 void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
 {
     neighbourhood.for_each_moving([&](Index i) {
-        const Vector transport = (0.5 * time_step / particles_.mass[i]) * transport_force_[i];
-        particles_.position.set(i, particles_.position[i] + time_step * (particles_.velocity[i] + transport));
+        particles_.position.set(i,
+                                particles_.position[i] + time_step * (particles_.velocity[i] + transport_velocity_[i]));
     });
 }
 
@@ -52,12 +59,30 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
         for_each_pair(list, particles_, kernel_, neighbourhood.moving(), surface_->colour_gradient());
         surface_->find(neighbourhood);
     }
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  TwoPhaseMomentum{mobility_, particles_.volume, particles_.density, particles_.pressure, viscosity_,
-                                   particles_.velocity, parameters_.background_pressure, force_, transport_force_});
-    if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
+    find_forces(neighbourhood);
     add_remedies(neighbourhood);
     accelerate(neighbourhood);
+}
+
+void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
+{
+    const auto sum = [&](const auto&... terms) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
+    };
+    const TwoPhaseMomentum momentum{mobility_,          particles_.volume,   particles_.density,    particles_.pressure,
+                                    viscosity_,         particles_.velocity, parameters_.transport, force_,
+                                    transport_velocity_};
+    if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
+    if (!stress_gradient_) return sum(momentum);
+    // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
+    if (!temperature_gradient_) sum(GradientCorrection{mobility_, scene_.dimensions, particles_.volume, *correction_});
+    sum(VelocityGradient{mobility_, particles_.volume, particles_.velocity, *correction_, *stress_gradient_});
+    neighbourhood.for_each_moving([&](Index i) {
+        for (VectorField* row : {&stress_gradient_->x, &stress_gradient_->y, &stress_gradient_->z})
+            row->set(i, (viscosity_[i] - least_viscosity_) * (*row)[i]);
+    });
+    // The second adds to what the first has just stored for the same cluster.
+    sum(momentum, ViscousTraction{mobility_, particles_.volume, *stress_gradient_, 1.0, force_});
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "integrators/flow.hpp"
+#include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -16,10 +19,14 @@ public:
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
 
 private:
+    void find_forces(const Neighbourhood& neighbourhood);
+
     ScalarField& viscosity_;
-    VectorField& transport_force_;
-    std::unique_ptr<CorrectionMatrix> correction_; ///< only for Marangoni flow
-    double stiffness_;                             ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
+    VectorField& transport_velocity_;
+    std::optional<CorrectionMatrix> correction_;            ///< for Marangoni flow and the traction
+    std::optional<VelocityGradientFields> stress_gradient_; ///< (μ − least μ) ∇v, Pa; only where viscosities differ
+    double least_viscosity_;                                ///< Pa·s
+    double stiffness_; ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

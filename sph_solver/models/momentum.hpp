@@ -57,9 +57,15 @@ struct FreeSurfaceMomentum
 ///   m_i dv_i/dt = −Σ_j (V_i² + V_j²) p̃_ij ∇W_ij + Σ_j μ_ij (V_i² + V_j²) (1/r dW/dr) (v_i − v_j)      [N]
 ///   p̃_ij = (ρ_j p_i + ρ_i p_j)/(ρ_i + ρ_j),   μ_ij = 2 μ_i μ_j/(μ_i + μ_j)
 ///
-/// and the transport force of the background pressure p_b, which moves positions and not momentum:
+/// A wall has no density and no viscosity of its own: it has those of the particle that meets it (Adami, Hu, Adams
+/// 2012). With the drop's, air before a wall would feel its own pressure twice and the wall's not at all, and swing
+/// itself up against it. And the transport velocity of a background pressure p_b = β ρ_i c₀², which moves positions and
+/// not momentum:
 ///
-///   b_i = −p_b Σ_j (V_i² + V_j²) ∇W_ij      [N]
+///   δu_i = −½ Δt_a β c₀²/V_i Σ_j (V_i² + V_j²) ∇W_ij,   Δt_a = 0.4 Δx/c₀      [m/s]
+///
+/// As published Δt_a is the time step and β one; this one does not change with what else limits the step, and with the
+/// particle's own density as heavy and light phases differ.
 struct TwoPhaseMomentum
 {
     Mobility mobility;
@@ -68,9 +74,9 @@ struct TwoPhaseMomentum
     const ScalarField& pressure;
     const ScalarField& viscosity;
     const VectorField& velocity;
-    double background_pressure; ///< p_b, Pa
+    double transport; ///< ½ Δt_a β c₀² = 0.2 β c₀ Δx, m²/s
     VectorField& force;
-    VectorField& transport_force;
+    VectorField& transport_velocity;
 
     struct Near
     {
@@ -79,12 +85,12 @@ struct TwoPhaseMomentum
     };
     struct Far
     {
-        Real volume, density, pressure, viscosity;
+        Real liquid, volume, density, pressure, viscosity; ///< liquid: 1 or 0
         VectorOf<Real> velocity;
     };
     struct Sum
     {
-        VectorLanes force{}, transport{};
+        VectorLanes force{}, unevenness{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -95,22 +101,26 @@ struct TwoPhaseMomentum
     }
     Far far(Index j) const
     {
-        return {real(volume[j]), real(density[j]), real(pressure[j]), real(viscosity[j]), real(velocity[j])};
+        return {real(mobility.weight[j]), real(volume[j]),    real(density[j]),
+                real(pressure[j]),        real(viscosity[j]), real(velocity[j])};
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const Lanes weight = (i.volume * i.volume + j.volume * j.volume) * pair.gradient_over_r;
-        const Lanes mean_pressure = (j.density * i.pressure + i.density * j.pressure) / (i.density + j.density);
-        const Lanes mean_viscosity = 2.0 * i.viscosity * j.viscosity / (i.viscosity + j.viscosity);
+        const bool wall = j.liquid == 0;
+        const Lanes density_j = wall ? i.density : Lanes(j.density);
+        const Lanes viscosity_j = wall ? i.viscosity : Lanes(j.viscosity);
+        const Lanes mean_pressure = (density_j * i.pressure + i.density * j.pressure) / (i.density + density_j);
+        const Lanes mean_viscosity = 2.0 * i.viscosity * viscosity_j / (i.viscosity + viscosity_j);
         sum.force -= (weight * mean_pressure) * pair.offset;
         sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(j.velocity));
-        sum.transport -= (weight * background_pressure) * pair.offset;
+        sum.unevenness += weight * pair.offset;
     }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
         store_if(force, cluster, sum.force, liquid);
-        store_if(transport_force, cluster, sum.transport, liquid);
+        store_if(transport_velocity, cluster, (-transport / i.volume) * sum.unevenness, liquid);
     }
 };
 

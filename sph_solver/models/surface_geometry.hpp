@@ -184,6 +184,7 @@ struct SurfaceNeighbourhood
 ///
 ///   κ_i = tr { [Σ w Δn̂ ⊗ Δx] [Σ w Δx ⊗ Δx]⁻¹ },   Δx, Δn̂ projected on the tangents      [1/m]
 ///
+/// and from it that of the surface itself, which lies s outside (of_parallel_surface).
 /// Unlike −∇·n̂ summed with kernel gradients it needs no full neighbourhood on both sides of the band.
 struct TangentPlaneCurvature
 {
@@ -191,7 +192,6 @@ struct TangentPlaneCurvature
     int dimensions;
     double smallest_delta;     ///< below it a particle takes no part, 1/m
     double greatest_curvature; ///< limit, 1/m
-    bool at_surface;           ///< of the surface itself, not of the parallel one through the particle
     const ScalarField& volume;
     SurfaceFields surface;
 
@@ -274,7 +274,7 @@ struct TangentPlaneCurvature
                         determinant;
                 product = (sum.n1_x[lane] * sum.n2_y[lane] - sum.n1_y[lane] * sum.n2_x[lane]) / determinant;
             }
-            const double curvature = at_surface ? of_parallel_surface(trace, product, surface.depth[i]) : trace;
+            const double curvature = of_parallel_surface(trace, product, surface.depth[i]);
             surface.raw_curvature[i] = std::clamp(curvature, -greatest_curvature, greatest_curvature);
             surface.curvature_valid[i] = 1.0;
         }

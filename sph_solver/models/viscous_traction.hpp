@@ -16,12 +16,16 @@ namespace cupel::inline CUPEL_ENGINE
 /// (Colagrossi, Antuono, Souto-Iglesias, Le Touzé 2011). Monaghan and Gingold's sum has both halves in one, but on a
 /// lattice with h = Δx its shear viscosity is a tenth off. Antisymmetric: momentum is conserved to round-off. Walls and
 /// solids continue the gradient of the liquid before them.
+///
+/// Between two viscosities the same half is (∇v)ᵀ·∇μ, which Morris's sum lacks as well: with it left out a drop of half
+/// the viscosity that Marangoni stress drives moves with τa/(2 μ_o + 6 μ_i), not τa/(4 μ_o + 4 μ_i), a fifth too fast.
+/// There the fields hold (μ_i − least μ) ∇v_i and `viscosity` is one: a share that is the same everywhere adds nothing.
 struct ViscousTraction
 {
     Mobility mobility;
     const ScalarField& volume;
     VelocityGradientFields gradient;
-    double viscosity;   ///< μ of the liquid, Pa·s
+    double viscosity;   ///< μ of the liquid, Pa·s; 1 where the fields hold stresses
     VectorField& force; ///< added to
 
     struct Near

@@ -44,6 +44,26 @@ TEST(FlowParameters, FollowTheSteepestPartOfAHotSpot)
     EXPECT_NEAR(parameters_of(definition).reference_speed, 0.01 * gradient / (4 * 0.05), 1e-9);
 }
 
+TEST(TimeStepLimits, SoundIsFasterInTheLighterOfTwoPhases)
+{
+    Case definition = small_scenes::pool();
+    definition.initial.velocity = TaylorGreen{3.0, 1.0};
+    Material outside = definition.materials.at("liquid");
+    outside.name = "outside";
+    definition.materials.emplace("outside", outside);
+    definition.surrounding.emplace();
+    definition.surrounding->material = "outside";
+    definition.surrounding->resolved = true;
+    const auto acoustic = [&](double density) {
+        definition.materials.at("outside").density = density * definition.materials.at("liquid").density;
+        const Scene scene = place_particles(definition);
+        return derive_time_step_limits(scene, derive_flow_parameters(scene)).at("acoustic");
+    };
+    // rho c^2 is one for both, so that c goes with the root of the density ratio, whichever phase is the lighter.
+    EXPECT_NEAR(acoustic(0.01) / acoustic(1.0), 0.1, 1e-12);
+    EXPECT_NEAR(acoustic(100.0) / acoustic(1.0), 0.1, 1e-12);
+}
+
 TEST(FlowParameters, SceneWithoutAnyForceIsRefused)
 {
     EXPECT_THROW(parameters_of(small_scenes::pool()), CaseError);

@@ -104,11 +104,46 @@ TEST(Simulation, NumberOfThreadsDoesNotChangeABit)
 TEST(Simulation, ComputesOnlyWhatTheCaseNames)
 {
     const Simulation plain = simulate(heavy_pool(), 1);
-    for (const char* field : {"temperature", "enthalpy", "curvature_of_nothing", "solid_colour", "transport_force"})
+    for (const char* field : {"temperature", "enthalpy", "curvature_of_nothing", "solid_colour", "transport_velocity"})
         EXPECT_FALSE(plain.particles().has(field)) << field;
     Case still = heavy_pool();
     still.numerics.shifting = 0.0;
     EXPECT_FALSE(simulate(still, 1).particles().has("surface_delta"));
+}
+
+TEST(Simulation, SurfaceTensionDrivesALightPhaseAsTheHeavyOne)
+{
+    Case definition = pool(2, 0.05);
+    definition.physics = {"flow", "surface_tension"};
+    definition.domain.boundaries[5]->kind = BoundaryKind::wall;
+    Material& drop = definition.materials.at("liquid");
+    drop.surface_tension = 1.0;
+    Material outside = drop;
+    outside.name = "outside";
+    outside.density = 1e-3;
+    outside.viscosity = 1e-3;
+    definition.materials.emplace("outside", outside);
+    definition.surrounding.emplace();
+    definition.surrounding->material = "outside";
+    definition.surrounding->resolved = true;
+    Body& body = definition.bodies.front();
+    body.shape = BodyShape::sphere;
+    body.center = {1, 0, 0.75};
+    body.radius = 0.4;
+    const Simulation simulation = simulate(definition, 0);
+    const Particles& particles = simulation.particles();
+    const VectorField& acceleration = particles.vector("acceleration");
+    double heavy = 0.0, light = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const bool primary = particles.material[static_cast<std::size_t>(i)] == 0;
+        double& greatest = primary ? heavy : light;
+        greatest = std::max(greatest, norm(acceleration[i]));
+    }
+    // The force differs between the two sides of the band by little; without its weight the light side's would be a
+    // thousand times the heavy side's.
+    EXPECT_GT(heavy, 0.0);
+    EXPECT_GT(light, 0.5 * heavy);
+    EXPECT_LT(light, 2.0 * heavy);
 }
 
 TEST(PlaceParticles, LiquidThatIsShiftedStartsAThousandthOfASpacingOffItsLattice)

@@ -177,6 +177,41 @@ TEST_P(FlowModels, StrainedLiquidDissipatesTwiceViscosityTimesStrainSquared)
     EXPECT_LT(norm(jittered.total_force), 1e-11 * std::abs(jittered.whole));
 }
 
+TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
+{
+    // u = x + 2 z, w = −z: (∇v)ᵀ n with n = x̂ is (1, 0, 2), and the traction on the interface [μ] times that. What the
+    // two viscosities have in common adds nothing.
+    Block block(GetParam(), 12, 0.0);
+    Particles& particles = block.particles;
+    VectorField& force = particles.add_vector({"force", "N"});
+    const VelocityGradientFields stress = VelocityGradientFields::register_in(particles);
+    Vector middle{};
+    for (Index i = 0; i < particles.count(); ++i)
+        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector p = particles.position[i];
+        particles.velocity.set(i, {p.x + 2.0 * p.z, 0.0, -p.z});
+        force.set(i, {});
+    }
+    block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, stress});
+    for (Index i = 0; i < particles.count(); ++i)
+        for (VectorField* row : {&stress.x, &stress.y, &stress.z})
+            row->set(i, (particles.position[i].x > middle.x ? 0.3 : 0.0) * (*row)[i]);
+    block.run(ViscousTraction{{block.mobility}, particles.volume, stress, 1.0, force});
+    Vector traction{};
+    double area = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector offset = particles.position[i] - middle;
+        const bool inside =
+            std::abs(offset.x) < 3.0 && std::abs(offset.z) < 3.0 && (GetParam() == 2 || std::abs(offset.y) < 3.0);
+        if (!inside) continue;
+        traction += force[i];
+        area += 1.0 / 6.0;
+    }
+    EXPECT_NEAR(traction.x / area, 0.3, 0.003);
+    EXPECT_NEAR(traction.z / area, 0.6, 0.006);
+}
+
 TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
 {
     Block block(GetParam());
