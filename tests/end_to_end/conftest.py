@@ -20,7 +20,7 @@ TINY = {
 INTERRUPTED = {
     ("sph", "marangoni_layer"): TINY["marangoni_layer"],
     ("sph", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=2 ms", "time.output_interval=0.1 ms"),
-    ("openfoam", "slm_track_150w"): TINY["slm_track_150w"],
+    ("openfoam", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=1.5 ms", "time.output_interval=0.1 ms"),
 }
 
 

@@ -19,7 +19,11 @@ TRACK = ("slm_track_150w", "resolution.coarse=40 um", "time.end=1 ms")
 
 # What is wrong with a case → what its diagnosis says: model, quantity with its unit, and a remedy.
 FAULTS = {
-    "a number that is none": ((*TRACK, "laser.power=1e306 W"), ("not a number", " = nan", "of particle ", "reduce numerics.")),
+    "a number that is none": ((*TRACK, "laser.power=1e308 W", 'physics=["laser", "heat", "melting"]',
+                               *(f"material.steel.{name}={value}" for name, value in (
+                                   ("specific_heat", "1e-8 J/(kg K)"), ("specific_heat_solid", "1e-8 J/(kg K)"),
+                                   ("conductivity", "1e-14 W/(m K)"), ("conductivity_solid", "1e-14 W/(m K)")))),
+                              ("not a number", " = inf", "of particle ", "reduce numerics.")),
     "a temperature beyond any metal's": ((*TRACK, "laser.power=1 MW", 'physics=["laser", "heat", "melting"]'), ("heat: ", "20000 K", "temperature [K]", "of particle ", "check laser power")),
     "a speed above that of sound": ((*LAYER, "numerics.sound_speed=0.005 m/s"),
                                     ("momentum: ", "artificial speed of sound", "speed [m/s]", "of particle ", "raise numerics.reference_speed")),
