@@ -126,8 +126,10 @@ def test_assumed_values_stand_beside_the_results_that_depend_on_them(outline):
     assert "body.radius" in outline.text.split("What the paper does not state")[1]
 
 
-def test_an_empty_results_folder_gives_a_page_that_says_so(tmp_path, browse):
+def test_an_empty_results_folder_gives_a_page_that_says_so(tmp_path, monkeypatch, browse):
+    from cupel import results
     from reports.page import write_page
 
+    monkeypatch.setattr(results, "CASES", tmp_path / "validation_cases")  # where nothing is kept either
     text = Outline(browse(write_page(tmp_path, None, "coarse").as_uri(), "--dump-dom")).text
     assert text.count("not run yet") >= 10 and "0 of 10 comparisons pass" in text

@@ -93,6 +93,7 @@ def test_a_kept_result_is_shown_as_kept_with_its_commit_and_links_that_lead_to_i
 
 
 def test_a_suite_of_which_nothing_has_run_does_not_fill_the_page_with_missing_cases(tmp_path, monkeypatch):
+    monkeypatch.setattr(results_module, "CASES", tmp_path / "validation_cases")  # where nothing is kept either
     monkeypatch.setattr(gather_module, "known_cases", lambda level: {"good": known_member("good", "v0")})
     cases, _ = gather_module.gather(tmp_path, None, "coarse")
     assert not tier_blocks(cases)
