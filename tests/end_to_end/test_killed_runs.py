@@ -48,7 +48,10 @@ def test_twenty_kills_change_nothing(tmp_path):
     for _ in range(20 * KILLS):
         if kills == KILLS or solve(case, tmp_path / "killed", chance.uniform(0.05, 0.2) * whole_time) == 0:
             break
-        if (tmp_path / "killed" / "run.json").exists():  # the kill came when all was written already
+        account = tmp_path / "killed" / "run.json"
+        if account.exists():  # written last of all: only a run that was whole when the kill came looks finished
+            finished = json.loads(account.read_text())
+            assert finished["status"] == "completed" and end(tmp_path / "killed").time == end(tmp_path / "whole").time
             break
         kills += 1
     assert solve(case, tmp_path / "killed") == 0
