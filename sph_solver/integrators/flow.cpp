@@ -53,6 +53,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
+        // The contact angle is a curvature of the size of 1/Δx at the contact line, which takes a force in the band.
+        band_bears_load_ = scene.two_phase || scene.definition.requires_physics("wetting");
+    }
+    if (band_bears_load_) {
         mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
         load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
     }
@@ -63,7 +67,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
+WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
 {
     const bool walls = particles_.has("wall_normal");
     return {mobility_,
@@ -75,7 +79,8 @@ WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
             walls ? &particles_.scalar("wall_free_slip") : nullptr,
             walls ? &particles_.scalar("wall_depth") : nullptr,
             particles_.has("wall_velocity") ? &particles_.vector("wall_velocity") : nullptr,
-            particles_.pressure,
+            carried_load,
+            pressure,
             particles_.velocity};
 }
 
@@ -131,6 +136,11 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
 
 void Flow::find_load(const Neighbourhood& neighbourhood)
 {
+    if (!load_) return;
+    if (mean_temperature_)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
+                                         surface_->fields().delta, *mean_temperature_});
     const SurfaceFields& surface = surface_->fields();
     neighbourhood.for_each_moving([&](Index i) {
         double load = 0.0;
@@ -142,17 +152,13 @@ void Flow::find_load(const Neighbourhood& neighbourhood)
         }
         (*load_)[i] = load;
     });
+    if (!band_bears_load_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
-    if (mean_temperature_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
-                                         surface_->fields().delta, *mean_temperature_});
-    if (load_) find_load(neighbourhood);
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         if (surface_ && surface_->fields().delta[i] > 0.0) {
@@ -160,7 +166,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (load_)
+            if (band_bears_load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
             if (with_marangoni_)

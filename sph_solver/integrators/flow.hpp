@@ -43,13 +43,16 @@ protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
     /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
-    WallExtrapolation wall_extrapolation(bool walls_may_pull);
+    WallExtrapolation wall_extrapolation(bool walls_may_pull, ScalarField& pressure,
+                                         ScalarField* carried_load = nullptr);
     /// Adds the optional pair forces that the case switches on to force_.
     void add_remedies(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
     void add_cohesion(const Neighbourhood& neighbourhood);
+    /// What presses on the surface.
+    void find_load(const Neighbourhood& neighbourhood);
     /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 
@@ -70,15 +73,15 @@ protected:
     double mean_density_ = 0.0;
     VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
 
-private:
-    /// What presses on the surface, and how it changes along it.
-    void find_load(const Neighbourhood& neighbourhood);
+    ScalarField* load_ = nullptr; ///< L, Pa; only where tension or recoil presses on a surface
+    /// Whether the surface's band bears the load as a continuum surface force. Else it is carried into the liquid.
+    bool band_bears_load_ = false;
 
+private:
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
-    ScalarField* load_ = nullptr;      ///< only where tension or recoil presses on a surface
-    ScalarField* mean_load_ = nullptr; ///< only where that surface is free
+    ScalarField* mean_load_ = nullptr; ///< only where the band bears the load
     VectorField* load_gradient_ = nullptr;
     ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
     double bonds_ = 0.0;

@@ -9,6 +9,7 @@
 #include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -18,8 +19,14 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
     : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
       velocity_gradient_(VelocityGradientFields::register_in(particles_)),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
-      rest_density_(scene.materials.front().density)
+      rest_density_(scene.materials.front().density), excess_pressure_(&particles_.pressure)
 {
+    if (load_ && !band_bears_load_) {
+        excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
+        carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
+        carried_mean_ = &particles_.add_scalar({"carried_load_mean", "Pa"});
+        carried_gradient_ = &particles_.add_vector({"carried_load_gradient", "Pa/m"});
+    }
     if (scene.definition.numerics.density_diffusion > 0.0)
         density_gradient_ = &particles_.add_vector({"density_gradient", "kg/m4"});
     if (scene.definition.numerics.shifting > 0.0) {
@@ -46,7 +53,7 @@ void FreeSurfaceFlow::start_hydrostatic()
     for (Index i = 0; i < particles_.count(); ++i)
         if (mobility_.weight[i] != 0.0) {
             const double weight = -rest_density_ * gravity_.z * (surface - particles_.position[i].z);
-            particles_.pressure[i] = weight;
+            particles_.pressure[i] = (*excess_pressure_)[i] = weight;
             particles_.density[i] = parameters_.equation_of_state.density(weight, rest_density_);
             particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         }
@@ -65,6 +72,7 @@ void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
     velocity_gradient_.reset(place);
+    (*excess_pressure_)[place] = 0.0;
     if (!shift_) return;
     shift_->set(place, {});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
@@ -75,15 +83,19 @@ void FreeSurfaceFlow::reset(Index place)
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const auto& clusters = neighbourhood.moving();
-    const Continuity continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_rate_};
     const VelocityGradient gradient{mobility_, particles_.volume, particles_.velocity, correction_, velocity_gradient_};
+    // It reads what the gradient has just stored for the same cluster.
+    const Continuity continuity{mobility_,          particles_.volume,
+                                particles_.density, particles_.velocity,
+                                velocity_gradient_, carried_load_ ? &surface_->fields().delta : nullptr,
+                                density_rate_};
     const auto sum = [&](const auto&... exchanges) {
         if (!density_gradient_)
-            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
+            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
                                  exchanges...);
         const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                                    parameters_.equation_of_state.sound_speed;
-        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
                       DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
                                        diffusivity, density_rate_},
                       exchanges...);
@@ -135,7 +147,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 {
     const FreeSurfaceMomentum momentum{mobility_,
                                        particles_.volume,
-                                       particles_.pressure,
+                                       *excess_pressure_,
                                        particles_.velocity,
                                        scene_.materials.front().viscosity.value(),
                                        force_};
@@ -164,19 +176,50 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
     }
 }
 
+/// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
+/// its mean over the surface everywhere.
+void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_start)
+{
+    const SurfaceFields& surface = surface_->fields();
+    const double h = parameters_.smoothing_length;
+    if (at_start) {
+        double sum = 0.0, weight = 0.0;
+        for (const Index i : neighbourhood.moving_particles()) {
+            const double share = share_of_surface(surface, i, h);
+            sum += share * (*load_)[i];
+            weight += share;
+        }
+        for (const Index i : neighbourhood.moving_particles())
+            (*carried_mean_)[i] = weight > 0.0 ? sum / weight : 0.0;
+    }
+    neighbourhood.for_each_moving([&](Index i) {
+        const double share = share_of_surface(surface, i, h);
+        const double at_depth = (*load_)[i] - surface.depth[i] * dot((*carried_gradient_)[i], surface.normal[i]);
+        (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
+    });
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+        SurfacePressure{mobility_, particles_.volume, correction_, *carried_load_, *carried_mean_, *carried_gradient_});
+    neighbourhood.for_each_moving([&](Index i) {
+        force_.set(i, force_[i] - particles_.volume[i] * (*carried_gradient_)[i]);
+        particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
+    });
+}
+
 /// Walls and solids as the liquid before them sees them: their pressure, and from it their volume, their velocity and
 /// whatever else is summed with them.
 template <class... Others>
 void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_extrapolation(false),
-                  others...);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
+                  wall_extrapolation(false, *excess_pressure_, carried_load_), others...);
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
             if (mobility_.weight[i] == 0.0) {
-                particles_.density[i] = parameters_.equation_of_state.density(particles_.pressure[i], rest_density_);
+                particles_.density[i] = parameters_.equation_of_state.density((*excess_pressure_)[i], rest_density_);
                 particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+                if (carried_load_) particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
             }
     }
 }
@@ -202,7 +245,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
         particles_.density[i] =
             std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
-        particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
+        (*excess_pressure_)[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
     });
     extrapolate_to_walls(neighbourhood);
 
@@ -210,6 +253,8 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     find_forces(neighbourhood);
     add_remedies(neighbourhood);
     add_cohesion(neighbourhood);
+    find_load(neighbourhood);
+    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
     accelerate(neighbourhood);
 }
 

@@ -23,12 +23,20 @@ private:
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
+    void carry_load(const Neighbourhood& neighbourhood, bool at_start);
     template <class... Others> void extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others);
 
     CorrectionMatrix correction_;
     VelocityGradientFields velocity_gradient_;
     ScalarField& density_rate_;
     double rest_density_;
+    /// What the equation of state says of the density. It is the pressure but where the load on the surface is carried
+    /// into the liquid: there pressure is the sum of both.
+    ScalarField* excess_pressure_;
+    // Only where a load is carried (surface_pressure.hpp):
+    ScalarField* carried_load_ = nullptr;
+    ScalarField* carried_mean_ = nullptr;
+    VectorField* carried_gradient_ = nullptr;
     VectorField* density_gradient_ = nullptr; ///< only where density diffuses
     // Only where the case shifts particles:
     VectorField* shift_ = nullptr;

@@ -47,7 +47,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
         const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
         particles_.pressure[i] = stiffness_ * (particles_.density[i] / rest - 1.0);
     });
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true));
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true, particles_.pressure));
     const double lattice_volume = scene_.particle_volume();
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);
@@ -61,6 +61,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
     }
     find_forces(neighbourhood);
     add_remedies(neighbourhood);
+    find_load(neighbourhood);
     accelerate(neighbourhood);
 }
 

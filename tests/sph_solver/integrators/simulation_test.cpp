@@ -146,6 +146,36 @@ TEST(Simulation, SurfaceTensionDrivesALightPhaseAsTheHeavyOne)
     EXPECT_LT(light, 2.0 * heavy);
 }
 
+/// A disc of liquid in nothing, at rest, for as long as sound takes to cross it some tens of times.
+TEST(Simulation, DropInNothingHasItsLaplacePressureAndRests)
+{
+    Case definition = pool(2, 0.05);
+    definition.physics = {"flow", "surface_tension"};
+    definition.domain.lower = {0, 0, -0.5};
+    definition.domain.boundaries[5]->kind = BoundaryKind::wall;
+    definition.materials.at("liquid").surface_tension = 1.0;
+    Body& body = definition.bodies.front();
+    body.shape = BodyShape::sphere;
+    body.center = {1, 0, 0.5};
+    body.radius = 0.4;
+    const Simulation simulation = simulate(definition, 600);
+    const Particles& particles = simulation.particles();
+    double pressure = 0.0, excess = 0.0, fastest = 0.0;
+    Index inside = 0;
+    for (const Index i : simulation.neighbourhood().moving_particles()) {
+        fastest = std::max(fastest, norm(particles.velocity[i]));
+        if (norm(particles.position[i] - Vector{1, 0, 0.5}) > 0.25) continue;
+        pressure += particles.pressure[i];
+        excess += particles.scalar("excess_pressure")[i];
+        ++inside;
+    }
+    ASSERT_GT(inside, 60);
+    EXPECT_NEAR(pressure / inside, 1.0 / 0.4, 0.03 / 0.4);
+    // The load is carried inside, so that density has nearly nothing to bear.
+    EXPECT_LT(std::abs(excess / inside), 0.05 / 0.4);
+    EXPECT_LT(fastest, 0.05 * std::sqrt(1.0 / 0.4)); // of the capillary speed
+}
+
 TEST(PlaceParticles, LiquidThatIsShiftedStartsAThousandthOfASpacingOffItsLattice)
 {
     const auto furthest_off = [](double shifting) {

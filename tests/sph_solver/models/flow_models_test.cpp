@@ -9,6 +9,7 @@
 #include "models/surface_forces.hpp"
 #include "models/surface_geometry.hpp"
 #include "models/surface_load.hpp"
+#include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
 #include "small_scenes.hpp"
 
@@ -70,7 +71,13 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     const auto velocity = [](const Vector& p) { return Vector{std::sin(p.z), 0.0, std::cos(0.5 * p.x)}; };
     for (Index i = 0; i < particles.count(); ++i)
         particles.velocity.set(i, velocity(particles.position[i]));
-    block.run(Continuity{{block.mobility}, particles.volume, particles.density, particles.velocity, rate});
+    block.run(Continuity{{block.mobility},
+                         particles.volume,
+                         particles.density,
+                         particles.velocity,
+                         VelocityGradientFields::register_in(particles),
+                         nullptr,
+                         rate});
     // Σ_j m_j W_ij a moment earlier and later.
     const double moment = 1e-5;
     const auto packing = [&](Index i, double time) {
@@ -84,6 +91,58 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     };
     for (Index i = 0; i < particles.count(); ++i)
         EXPECT_NEAR(rate[i], (packing(i, moment) - packing(i, -moment)) / (2.0 * moment), 1e-7);
+}
+
+TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeavesDensityAlone)
+{
+    Block block(GetParam(), 12, 0.25);
+    Particles& particles = block.particles;
+    ScalarField& rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    ScalarField& delta = particles.add_scalar({"delta", "1/m"});
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    const auto greatest_rate = [&](double expansion, const ScalarField* surface_delta) {
+        for (Index i = 0; i < particles.count(); ++i) {
+            const Vector p = particles.position[i];
+            particles.velocity.set(i, {(1.0 + expansion) * p.x, 0.0, -p.z});
+            delta[i] = 1.0;
+        }
+        block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, gradient});
+        block.run(Continuity{
+            {block.mobility}, particles.volume, particles.density, particles.velocity, gradient, surface_delta, rate});
+        double greatest = 0.0;
+        for (Index i = 0; i < particles.count(); ++i)
+            greatest = std::max(greatest, std::abs(rate[i] + expansion * particles.density[i]));
+        return greatest;
+    };
+    EXPECT_LT(greatest_rate(0.0, &delta), 1e-10);
+    EXPECT_LT(greatest_rate(0.3, &delta), 1e-10);
+    EXPECT_GT(greatest_rate(0.0, nullptr), 0.05); // the block's faces see a divergence that is not there
+}
+
+TEST_P(FlowModels, ALoadThatIsLinearIsCarriedAsItIsAndAUniformOneDrivesNothing)
+{
+    Block block(GetParam(), 12, 0.25);
+    Particles& particles = block.particles;
+    ScalarField& load = particles.add_scalar({"load", "Pa"});
+    ScalarField& mean = particles.add_scalar({"mean", "Pa"});
+    VectorField& gradient = particles.add_vector({"load_gradient", "Pa/m"});
+    const Vector slope{1.5, GetParam() == 2 ? 0.0 : -2.0, 0.5};
+    const auto carry = [&](const Vector& by) {
+        for (Index i = 0; i < particles.count(); ++i)
+            load[i] = 7.0 + dot(by, particles.position[i]);
+        block.run(SurfacePressure{{block.mobility}, particles.volume, block.correction, load, mean, gradient});
+    };
+    carry({});
+    for (Index i = 0; i < particles.count(); ++i) {
+        EXPECT_EQ(norm(gradient[i]), 0.0);
+        EXPECT_EQ(mean[i], 7.0);
+    }
+    carry(slope);
+    for (Index i = 0; i < particles.count(); ++i) {
+        EXPECT_NEAR(norm(gradient[i] - slope), 0.0, 1e-10);
+        // Of neighbours that lie within the kernel's support, by positive weights.
+        EXPECT_LT(std::abs(mean[i] - load[i]), norm(slope) * block.kernel.support());
+    }
 }
 
 TEST_P(FlowModels, DensityDiffusionConservesAndLeavesALinearDensityAlone)
