@@ -54,7 +54,10 @@ Simulation::Simulation(Scene scene)
         set_frozen_temperature();
     }
     if (has_heat_) heat_ = std::make_unique<ThermalStep>(scene_);
-    if (melts_) liquid_fraction_ = &particles.scalar("liquid_fraction");
+    if (melts_) {
+        liquid_fraction_ = &particles.scalar("liquid_fraction");
+        mushy_drag_.constant = scene_.materials.front().mushy_drag.value_or(0.0); // needed where the melt flows
+    }
     for (Index i = 0; i < particles.count(); ++i)
         mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
     if (!has_flow_) return;
@@ -220,11 +223,21 @@ void Simulation::advance_flow(double time_step)
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);
     kick(0.5 * time_step);
-    if (heat_)
-        for (const Index i : neighbourhood_.moving_particles())
-            heat_->mark_moved(i);
+    if (heat_) mark_what_moved();
     retire_escaped();
     updates_ += neighbourhood_.moving_particles().size();
+}
+
+/// What heat has to sum anew: around what moves, and around solids whose volume follows the pressure of what moves.
+void Simulation::mark_what_moved()
+{
+    for (const Index i : neighbourhood_.moving_particles())
+        heat_->mark_moved(i);
+    for (const Index c : neighbourhood_.standing()) {
+        const Cluster& cluster = neighbourhood_.list().cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            heat_->mark_moved(i);
+    }
 }
 
 void Simulation::advance_heat(double until)

@@ -65,6 +65,7 @@ private:
     void set_frozen_temperature();
     double choose_time_step(double longest);
     void advance_flow(double time_step);
+    void mark_what_moved();
     void advance_heat(double until);
     void melt_and_solidify();
     void kick(double time_step);
