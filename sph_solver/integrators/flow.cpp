@@ -29,7 +29,9 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     : scene_(scene), particles_(*scene.particles), parameters_(parameters),
       kernel_(parameters.smoothing_length, scene.dimensions), mobility_{mobility},
       gravity_{scene.definition.gravity[0], scene.definition.gravity[1], scene.definition.gravity[2]},
-      force_(particles_.add_vector({"force", "N"})), acceleration_(particles_.add_vector({"acceleration", "m/s2"})),
+      force_(particles_.add_vector({"force", "N"})), pressure_force_(particles_.add_vector({"pressure_force", "N"})),
+      viscous_force_(particles_.add_vector({"viscous_force", "N"})),
+      acceleration_(particles_.add_vector({"acceleration", "m/s2"})), excess_pressure_(&particles_.pressure),
       tension_(surface_tension_law(scene.materials.front())),
       with_tension_(scene.definition.requires_physics("surface_tension")),
       with_marangoni_(scene.definition.requires_physics("marangoni")),
@@ -49,6 +51,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
                             metal.vaporization_heat.value(), metal.molar_mass.value()};
     }
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
+    const Numerics& numerics = scene.definition.numerics;
+    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
+        numerics.artificial_stress > 0.0)
+        artificial_force_ = &particles_.add_vector({"artificial_force", "N"});
     if (temperature_ && (with_tension_ || with_recoil_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
@@ -84,18 +90,56 @@ WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull, ScalarField& pre
             particles_.velocity};
 }
 
-void Flow::add_remedies(const Neighbourhood& neighbourhood)
+void Flow::add_up_forces(const Neighbourhood& neighbourhood)
 {
     const Numerics& numerics = scene_.definition.numerics;
+    if (artificial_force_) neighbourhood.for_each_moving([&](Index i) { artificial_force_->set(i, {}); });
     if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       ArtificialViscosity{mobility_, numerics.artificial_viscosity, numerics.artificial_viscosity_beta,
                                           parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
-                                          particles_.mass, particles_.density, particles_.velocity, force_});
+                                          particles_.mass, particles_.density, particles_.velocity,
+                                          *artificial_force_});
     if (numerics.artificial_stress > 0.0)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       ArtificialStress{mobility_, numerics.artificial_stress, kernel_(scene_.spacing).value,
-                                       particles_.mass, particles_.density, particles_.pressure, force_});
+                                       particles_.mass, particles_.density, *excess_pressure_, *artificial_force_});
+    neighbourhood.for_each_moving([&](Index i) {
+        Vector force = pressure_force_[i] + viscous_force_[i];
+        if (artificial_force_) force += (*artificial_force_)[i];
+        if (shifting_force_) force += (*shifting_force_)[i];
+        force_.set(i, force);
+    });
+}
+
+MechanicalWork Flow::work(Index i, const Vector& mean_velocity, double time_step) const
+{
+    const Vector path = time_step * mean_velocity;
+    MechanicalWork work;
+    work.pressure = dot(pressure_force_[i], path);
+    work.viscosity = dot(viscous_force_[i], path);
+    work.gravity = particles_.mass[i] * dot(gravity_, path);
+    if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
+    if (shifting_force_) work.shifting = dot((*shifting_force_)[i], path);
+    work.surface = particles_.mass[i] * dot(acceleration_[i], path) - work.pressure - work.viscosity - work.gravity -
+                   work.artificial - work.shifting;
+    return work;
+}
+
+double Flow::elastic_energy(Index i) const
+{
+    const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
+    return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest);
+}
+
+double Flow::mechanical_energy(const Neighbourhood& neighbourhood) const
+{
+    const auto& moving = neighbourhood.moving_particles();
+    return ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+        const Index i = moving[static_cast<std::size_t>(m)];
+        const Vector v = particles_.velocity[i];
+        return particles_.mass[i] * (0.5 * dot(v, v) + elastic_energy(i));
+    });
 }
 
 void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)

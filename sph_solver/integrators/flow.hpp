@@ -7,6 +7,7 @@
 #include "integrators/neighbourhood.hpp"
 #include "integrators/parameters.hpp"
 #include "integrators/surface_tracker.hpp"
+#include "ledgers/mechanical_work.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
 #include "models/vapour_pressure.hpp"
@@ -35,6 +36,14 @@ public:
     }
 
     const VectorField& acceleration() const { return acceleration_; }
+    /// Work of a kick on particle i, whose velocity is `mean` on the average of it, by cause, J.
+    MechanicalWork work(Index i, const Vector& mean_velocity, double time_step) const;
+    /// e of a particle, J/kg.
+    virtual double elastic_energy(Index i) const;
+    /// ½ m v² + m e of all that moves, J.
+    double mechanical_energy(const Neighbourhood& neighbourhood) const;
+    MechanicalWork& books() { return books_; }
+    const MechanicalWork& books() const { return books_; }
     /// Null where the scene has no force on the surface.
     const SurfaceTracker* surface() const { return surface_.get(); }
     const FlowParameters& parameters() const { return parameters_; }
@@ -45,8 +54,8 @@ protected:
     /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
     WallExtrapolation wall_extrapolation(bool walls_may_pull, ScalarField& pressure,
                                          ScalarField* carried_load = nullptr);
-    /// Adds the optional pair forces that the case switches on to force_.
-    void add_remedies(const Neighbourhood& neighbourhood);
+    /// force_ ← pressure and viscosity, the optional pair forces that the case switches on, and what shifting carries.
+    void add_up_forces(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
@@ -62,10 +71,18 @@ protected:
     QuinticSpline kernel_;
     Mobility mobility_;
     Vector gravity_;
-    VectorField& force_;
+    VectorField& force_; ///< of all pairs
+    VectorField& pressure_force_;
+    VectorField& viscous_force_;
+    VectorField* artificial_force_ = nullptr; ///< only where a case switches such forces on
+    VectorField* shifting_force_ = nullptr;   ///< momentum that shifting carries
     VectorField& acceleration_;
+    MechanicalWork books_;
     std::unique_ptr<SurfaceTracker> surface_;
 
+    /// What the equation of state says of the density, which acts between particles. It is the pressure but where the
+    /// load on the surface is carried into the liquid: there pressure is the sum of both.
+    ScalarField* excess_pressure_;
     ScalarField* temperature_ = nullptr;
     /// ½(ρ₁ + ρ₂) of two phases, kg/m³; 0 with one. Surface forces there have the weight 2ρ_i/(ρ₁ + ρ₂) (Brackbill,
     /// Kothe, Zemach 1992, eq. 31), whose mean over the band is one: both phases are driven alike, and what is uneven

@@ -32,6 +32,7 @@ struct Continuity
     VelocityGradientFields gradient;  ///< ∇v, corrected, of this step
     const ScalarField* surface_delta; ///< above zero in the surface's band; null where the load is not carried
     ScalarField& density_rate;
+    ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
     struct Near
     {
@@ -61,8 +62,11 @@ struct Continuity
         if (!surface_delta) return;
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index k = cluster.first + lane;
-            if (mobility.weight[k] == 0.0 || !((*surface_delta)[k] > 0.0)) continue;
-            density_rate[k] = -density[k] * (gradient.x[k].x + gradient.y[k].y + gradient.z[k].z);
+            if (mobility.weight[k] == 0.0) continue;
+            const double partner = density_rate[k];
+            if ((*surface_delta)[k] > 0.0)
+                density_rate[k] = -density[k] * (gradient.x[k].x + gradient.y[k].y + gradient.z[k].z);
+            if (replaced) (*replaced)[k] = density_rate[k] - partner;
         }
     }
 };

@@ -57,6 +57,24 @@ TEST(Simulation, MassIsConservedToRoundOff)
     EXPECT_NEAR(mass_of(end.particles()), mass_of(start.particles()), 1e-12 * mass_of(start.particles()));
 }
 
+TEST(Simulation, MechanicalBooksHoldEveryWork)
+{
+    Case definition = heavy_pool();
+    definition.numerics.artificial_viscosity = 0.05;
+    const Simulation simulation = simulate(definition, 300);
+    const MechanicalWork& work = simulation.flow()->books();
+    const Ledger ledger = simulation.mechanical_ledger();
+    EXPECT_GT(work.gravity, 0.0);
+    EXPECT_LT(work.viscosity, 0.0);
+    EXPECT_LT(work.artificial, 0.0);
+    EXPECT_LT(work.density_diffusion, 0.0);
+    // Every kick and every change of density has its causes, to round-off; what closes is that pressure gives what
+    // compression takes, but for walls and for steps of finite length.
+    const double all = ledger.in - ledger.out + work.pressure + work.compression - work.imbalance;
+    EXPECT_NEAR(ledger.end - ledger.start, all, 1e-12 * ledger.in);
+    EXPECT_LT(ledger.closure(), 2e-3);
+}
+
 TEST(Simulation, SettlingThenGoingOnEqualsLoadingThenGoingOn)
 {
     Simulation unbroken = simulate(heavy_pool(), 60);
