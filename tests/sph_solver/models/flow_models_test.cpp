@@ -108,8 +108,14 @@ TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeave
             delta[i] = 1.0;
         }
         block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, gradient});
-        block.run(Continuity{
-            {block.mobility}, particles.volume, particles.density, particles.velocity, gradient, surface_delta, rate});
+        block.run(Continuity{{block.mobility},
+                             particles.volume,
+                             particles.density,
+                             particles.velocity,
+                             gradient,
+                             surface_delta,
+                             rate,
+                             nullptr});
         double greatest = 0.0;
         for (Index i = 0; i < particles.count(); ++i)
             greatest = std::max(greatest, std::abs(rate[i] + expansion * particles.density[i]));
@@ -211,6 +217,7 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
     Particles& particles = block.particles;
     VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
     VectorField& viscous_force = particles.add_vector({"viscous_force", "N"});
+    const VelocityGradientFields velocity_gradient = VelocityGradientFields::register_in(particles);
     ScalarField& wall_power = particles.add_scalar({"wall_power", "W"});
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     for (Index i = 0; i < particles.count(); ++i) {
@@ -227,7 +234,14 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
                                       pressure_force,
                                       viscous_force,
                                       wall_power});
-        block.run(Continuity{{block.mobility}, particles.volume, particles.density, particles.velocity, density_rate});
+        block.run(Continuity{{block.mobility},
+                             particles.volume,
+                             particles.density,
+                             particles.velocity,
+                             velocity_gradient,
+                             nullptr,
+                             density_rate,
+                             nullptr});
         double sum = 0.0, walls = 0.0;
         for (Index i = 0; i < particles.count(); ++i) {
             if (block.mobility[i] == 0.0) continue;
