@@ -110,6 +110,7 @@ private:
     bool is_wall(Index i) const { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }
 
     Particles& particles_;
+    int dimensions_;
     double spacing_, smoothing_length_;
     QuinticSpline kernel_;
     std::vector<ThermalMaterial> materials_;
