@@ -36,6 +36,7 @@ HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, s
             wets || isA<zeroGradientFvPatchScalarField>(values) || boundary.type() == "symmetryPlane";
         const vector outward = gSum(boundary.Sf());
         for (int axis = 0; axis < 3; ++axis) {
+            if (boundary.type() == "cyclic" && mag(outward[axis]) > 0.9 * mag(outward)) periodic_[axis] = true;
             if (!continues || mag(outward[axis]) < 0.9 * mag(outward)) continue;
             Side& side = sides_[axis][outward[axis] > 0 ? 1 : 0];
             side.continues = true;
@@ -49,33 +50,41 @@ bool HeightFunction::height(const std::vector<scalar>& fraction, Index start, in
 {
     const BlockGrid::Line& line = grid_.line(axis);
     const int count = line.count(), from = start[axis];
+    const auto is_beyond = [&](int k) { return !periodic_[axis] && (k < 0 || k >= count); };
     const auto share = [&](int k) {
-        start[axis] = k;
+        start[axis] = inside_period(axis, k);
         return fraction[grid_.flat(start)];
     };
     // from the cell to where it is full, and to where it is empty; a turn on the way is another surface
     int inside = from, outside = from;
     for (int step = 0; share(inside) < full; ++step) {
         inside -= outward;
-        if (step == reach || inside < 0 || inside >= count || share(inside) < share(inside + outward) - turn)
-            return false;
+        if (step == reach || is_beyond(inside) || share(inside) < share(inside + outward) - turn) return false;
     }
     for (int step = 0; share(outside) > empty_share; ++step) {
         outside += outward;
-        if (step == reach || outside < 0 || outside >= count || share(outside) > share(outside - outward) + turn)
-            return false;
+        if (step == reach || is_beyond(outside) || share(outside) > share(outside - outward) + turn) return false;
     }
-    position = outward * line.centres[inside] - 0.5 * line.widths[inside];
+    const int inside_here = inside_period(axis, inside);
+    const scalar whole_periods = (inside - inside_here) / count * (line.faces.back() - line.faces.front());
+    position = outward * (line.centres[inside_here] + whole_periods) - 0.5 * line.widths[inside_here];
     for (int k = inside; k != outside + outward; k += outward)
-        position += min(max(share(k), scalar(0)), scalar(1)) * line.widths[k];
+        position += min(max(share(k), scalar(0)), scalar(1)) * line.widths[inside_period(axis, k)];
     return true;
+}
+
+int HeightFunction::inside_period(int axis, int index) const
+{
+    const int count = grid_.line(axis).count();
+    return periodic_[axis] ? ((index % count) + count) % count : index;
 }
 
 scalar HeightFunction::spacing_between(int axis, int index) const
 {
     const BlockGrid::Line& line = grid_.line(axis);
-    if (index < 0) return line.widths.front();
-    if (index + 1 >= int(line.centres.size())) return line.widths.back();
+    const bool at_end = index < 0 || index + 1 >= line.count();
+    if (at_end && periodic_[axis]) return 0.5 * (line.widths.front() + line.widths.back());
+    if (at_end) return index < 0 ? line.widths.front() : line.widths.back();
     return line.centres[index + 1] - line.centres[index];
 }
 
@@ -83,9 +92,10 @@ scalar HeightFunction::slope(const scalar (&row)[3], int axis, int index) const
 {
     const int last = grid_.line(axis).count() - 1;
     if (last == 0) return 0;
-    const int from = index > 0 ? 0 : 1, to = index < last ? 2 : 1; // one-sided beside a side
-    const scalar below = index > 0 ? spacing_between(axis, index - 1) : 0,
-                 above = index < last ? spacing_between(axis, index) : 0;
+    const bool has_below = index > 0 || periodic_[axis], has_above = index < last || periodic_[axis];
+    const int from = has_below ? 0 : 1, to = has_above ? 2 : 1; // one-sided beside a side
+    const scalar below = has_below ? spacing_between(axis, index - 1) : 0,
+                 above = has_above ? spacing_between(axis, index) : 0;
     return (row[to] - row[from]) / (below + above);
 }
 
@@ -95,13 +105,17 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     scalar heights[3][3] = {};
     const bool flat_x = grid_.line(x).count() == 1, flat_y = grid_.line(y).count() == 1; // a scene in a plane
-    const auto is_behind = [this](int along, int index) { return index < 0 || index >= grid_.line(along).count(); };
+    const auto is_behind = [this](int along, int index) {
+        return !periodic_[along] && (index < 0 || index >= grid_.line(along).count());
+    };
     for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j) {
             Index column = cell;
             column[x] += flat_x ? 0 : i;
             column[y] += flat_y ? 0 : j;
             if (is_behind(x, column[x]) || is_behind(y, column[y])) continue;
+            column[x] = inside_period(x, column[x]);
+            column[y] = inside_period(y, column[y]);
             if (!height(fraction, column, axis, outward, heights[i + 1][j + 1])) return false;
         }
     // rows behind a side: first those along x, then those along y with the corners that the first have filled

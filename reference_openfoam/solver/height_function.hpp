@@ -8,11 +8,11 @@
 ///   H_behind = H + cotθ Δ √(1 + H_y²);  cotθ = 0 at symmetry planes and where nothing wets.
 ///
 /// H is taken toward the surrounding, so a drop has κ > 0. A cell has a value if all columns of its 3 × 3 stencil go
-/// from full to empty within reach and the stencil does not leave the mesh through an open or periodic side; the others
-/// keep the curvature that they had. (To give them the mean of their neighbours, or the curvature of a paraboloid
-/// fitted to the heights around them, was tried: a steel drop of five cells a radius is then quieter at first, 0.01 m/s
-/// against 0.3, and has shaken itself apart after 0.3 ms.) Second order on smooth interfaces, where the divergence of a
-/// smoothed normal is several per cent off at every resolution.
+/// from full to empty within reach and the stencil does not leave the mesh through an open side (through a periodic one
+/// it comes in at the other end); the others keep the curvature that they had. (To give them the mean of their
+/// neighbours, or the curvature of a paraboloid fitted to the heights around them, was tried: a steel drop of five
+/// cells a radius is then quieter at first, 0.01 m/s against 0.3, and has shaken itself apart after 0.3 ms.) Second
+/// order on smooth interfaces, where the divergence of a smoothed normal is several per cent off at every resolution.
 #pragma once
 
 #include "block_grid.hpp"
@@ -38,7 +38,11 @@ private:
     bool curvature_along(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
                          scalar& curvature) const;
 
-    /// Distance from the centre of cell `index` to the next along `axis` [m]; beyond an end, to the mirrored cell.
+    /// `index` along `axis`, brought back into the mesh by whole periods where the axis is periodic.
+    int inside_period(int axis, int index) const;
+
+    /// Distance from the centre of cell `index` to the next along `axis` [m]; beyond an end, to the mirrored cell or
+    /// the one at the other end.
     scalar spacing_between(int axis, int index) const;
     /// Slope of three heights in a row along `axis`, of those that are inside the mesh.
     scalar slope(const scalar (&row)[3], int axis, int index) const;
@@ -52,6 +56,7 @@ private:
 
     const BlockGrid grid_;
     std::array<std::array<Side, 2>, 3> sides_;
+    std::array<bool, 3> periodic_ = {{false, false, false}};
     scalar spacing_;
 };
 } // namespace cupel

@@ -144,3 +144,24 @@ def test_gravity_along_periodic_sides_starts_the_flow_of_a_channel_as_the_series
                                                * np.exp(-n**2*np.pi**2*viscosity*0.5)).sum(axis=0)
     # first order in time, steps of dx^2/4 nu: 0.2 % at this time; without the implicit viscous step of the predictor 80 %
     assert np.linalg.norm(fields["velocity"][:, 0] - exact) < 0.005*np.linalg.norm(exact)
+
+
+def test_a_wave_does_not_see_where_the_periodic_sides_are(tmp_path):
+    # the crest on the sides, then in the middle: the curvature of the columns beside the sides is that of any other
+    energies = []
+    for name, left in (("sides", 0.0), ("middle", -0.5)):
+        sides = {side: {"kind": "periodic"} for side in ("x_min", "x_max")} | {side: {"kind": "wall", "slip": "free_slip"} for side in ("z_min", "z_max")}
+        data = small_cases.case(
+            spacing=1/16, dimensions=2, physics=["flow", "surface_tension"],
+            materials={"liquid": {"density": 1.0, "viscosity": 0.018257, "surface_tension": 1.0}, "gas": {"density": 1e-3, "viscosity": 1.8257e-5}},
+            surrounding={"material": "gas", "resolved": False, "temperature": 300.0, "pressure": 101325.0, "convection_coefficient": 0.0},
+            domain={"lower": [left, 0.0, -0.5], "upper": [left + 1, 0.0, 0.25], "boundaries": sides},
+            bodies=[{"shape": "box", "material": "liquid", "state": "liquid", "lower": [left, 0.0, -0.5], "upper": [left + 1, 0.0, 0.0],
+                     "surface_wave": {"amplitude": 2.5e-3, "wavelength": 1.0}}],
+            time={"end": 0.1, "output_interval": 0.1})
+        (tmp_path/name).mkdir()
+        small_cases.completed(data, tmp_path/name)
+        energies.append(small_cases.history(tmp_path/name)["kinetic_energy_J"][-1])
+    assert energies[0] == pytest.approx(energies[1], rel=1e-5)
+    # deep water, without viscosity: the wave's energy sigma a^2 k^2/4 a length, all of it in motion after a quarter period of 0.1 s
+    assert energies[0]/(1/16) == pytest.approx(0.25*2.5e-3**2*(2*np.pi)**2, rel=0.25)
