@@ -106,7 +106,7 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
 {
     if (!unresolved_) return;
     const NeighbourList& list = neighbourhood.list();
-    std::vector<unsigned char> touched(neighbourhood.all().size(), 0);
+    std::vector<Index> unresolved;
     for (const Index c : neighbourhood.moving()) {
         const Cluster& cluster = list.cluster(c);
         bool any = false;
@@ -116,12 +116,9 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                 Cohesion::share_unresolved(surface_->fields().companions[i], lattice_companions(scene_.dimensions));
             any = any || (*unresolved_)[i] > 0.0;
         }
-        if (any)
-            list.for_each_neighbour(c, [&](Index j) { touched[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
+        if (any) unresolved.push_back(c);
     }
-    std::vector<Index> near;
-    for (const Index c : neighbourhood.moving())
-        if (touched[static_cast<std::size_t>(c)]) near.push_back(c);
+    const std::vector<Index> near = neighbourhood.moving_near(unresolved);
     if (near.empty()) return;
     const bool flat = scene_.dimensions == 2;
     for_each_pair(list, particles_, kernel_, near,
