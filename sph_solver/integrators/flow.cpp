@@ -4,8 +4,6 @@
 
 #include "integrators/free_surface_flow.hpp"
 #include "integrators/two_phase_flow.hpp"
-#include "models/artificial_stress.hpp"
-#include "models/artificial_viscosity.hpp"
 #include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
 #include "models/surface_load.hpp"
@@ -63,41 +61,59 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
+WallPressure Flow::wall_pressure(bool walls_may_pull)
+{
+    return {mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind, particles_.pressure};
+}
+
+WallVelocity Flow::wall_velocity()
 {
     const bool walls = particles_.has("wall_normal");
     return {mobility_,
-            particles_.density,
-            gravity_,
-            walls_may_pull,
-            particles_.kind,
             walls ? &particles_.vector("wall_normal") : nullptr,
             walls ? &particles_.scalar("wall_free_slip") : nullptr,
             walls ? &particles_.scalar("wall_depth") : nullptr,
             particles_.has("wall_velocity") ? &particles_.vector("wall_velocity") : nullptr,
-            particles_.pressure,
             particles_.velocity};
 }
 
-void Flow::add_remedies(const Neighbourhood& neighbourhood)
+bool Flow::has_remedies() const
 {
     const Numerics& numerics = scene_.definition.numerics;
-    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      ArtificialViscosity{mobility_, numerics.artificial_viscosity, numerics.artificial_viscosity_beta,
-                                          parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
-                                          particles_.mass, particles_.density, particles_.velocity, force_});
-    if (numerics.artificial_stress > 0.0)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      ArtificialStress{mobility_, numerics.artificial_stress, kernel_(scene_.spacing).value,
-                                       particles_.mass, particles_.density, particles_.pressure, force_});
+    return numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
+           numerics.artificial_stress > 0.0;
+}
+
+ArtificialViscosity Flow::artificial_viscosity()
+{
+    const Numerics& numerics = scene_.definition.numerics;
+    return {mobility_,
+            numerics.artificial_viscosity,
+            numerics.artificial_viscosity_beta,
+            parameters_.equation_of_state.sound_speed,
+            parameters_.smoothing_length,
+            particles_.mass,
+            particles_.density,
+            particles_.velocity,
+            force_};
+}
+
+ArtificialStress Flow::artificial_stress()
+{
+    return {mobility_,
+            scene_.definition.numerics.artificial_stress,
+            kernel_(scene_.spacing).value,
+            particles_.mass,
+            particles_.density,
+            particles_.pressure,
+            force_};
 }
 
 void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, correction},
-                  ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+                  GradientCorrection{mobility_, scene_.dimensions, correction},
+                  ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
     for (const Index i : neighbourhood.moving_particles())
         temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
 }

@@ -7,6 +7,8 @@
 #include "integrators/neighbourhood.hpp"
 #include "integrators/parameters.hpp"
 #include "integrators/surface_tracker.hpp"
+#include "models/artificial_stress.hpp"
+#include "models/artificial_viscosity.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
 #include "models/vapour_pressure.hpp"
@@ -43,9 +45,12 @@ protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
     /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
-    WallExtrapolation wall_extrapolation(bool walls_may_pull);
-    /// Adds the optional pair forces that the case switches on to force_.
-    void add_remedies(const Neighbourhood& neighbourhood);
+    WallPressure wall_pressure(bool walls_may_pull);
+    WallVelocity wall_velocity();
+    /// Whether the case switches on an artificial pair force; both are added to what a term before them has stored.
+    bool has_remedies() const;
+    ArtificialViscosity artificial_viscosity();
+    ArtificialStress artificial_stress();
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.

@@ -6,9 +6,9 @@
 
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
-#include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/shifting_exchange.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -75,8 +75,8 @@ void FreeSurfaceFlow::reset(Index place)
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const auto& clusters = neighbourhood.moving();
-    const Continuity continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_rate_};
-    const VelocityGradient gradient{mobility_, particles_.volume, particles_.velocity, correction_, velocity_gradient_};
+    const Continuity continuity{mobility_, particles_.density, particles_.velocity, density_rate_};
+    const VelocityGradient gradient{mobility_, particles_.velocity, correction_, velocity_gradient_};
     const auto sum = [&](const auto&... exchanges) {
         if (!density_gradient_)
             return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
@@ -84,19 +84,19 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
         const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                                    parameters_.equation_of_state.sound_speed;
         for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
-                      DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
-                                       diffusivity, density_rate_},
+                      DensityDiffusion{mobility_, particles_.density, *density_gradient_, diffusivity, density_rate_},
                       exchanges...);
     };
     if (!shift_) return sum();
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
-    const ShiftingExchange exchange{mobility_, particles_.volume, particles_.density, particles_.velocity,  *shift_,
-                                    *balance_, density_rate_,     *mass_rate_,        *shift_momentum_rate_};
-    if (!enthalpy_) return sum(exchange);
-    sum(exchange, EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
-                                   *energy_rate_});
+    const auto exchange = [&](auto with_enthalpy) {
+        return ShiftingExchange<with_enthalpy()>{
+            mobility_, particles_.volume, particles_.density, particles_.velocity,   *shift_,     *balance_,
+            enthalpy_, density_rate_,     *mass_rate_,        *shift_momentum_rate_, energy_rate_};
+    };
+    enthalpy_ ? sum(exchange(std::true_type{})) : sum(exchange(std::false_type{}));
 }
 
 /// The sums that need nothing but places: the colour gradient, the matrices that correct gradients, where something
@@ -109,10 +109,9 @@ void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
     const auto sum_with_surface = [&](const auto&... terms) {
         surface_ ? sum(terms..., surface_->colour_gradient()) : sum(terms...);
     };
-    const GradientCorrection correction{mobility_, scene_.dimensions, particles_.volume, correction_};
+    const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
     if (density_gradient_) {
-        sum_with_surface(correction,
-                         ScalarGradient{mobility_, particles_.volume, particles_.density, *density_gradient_});
+        sum_with_surface(correction, ScalarGradient{mobility_, particles_.density, *density_gradient_});
         neighbourhood.for_each_moving(
             [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
     }
@@ -139,14 +138,17 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
                                        particles_.velocity,
                                        scene_.materials.front().viscosity.value(),
                                        force_};
-    // The second adds to what the first has just stored for the same cluster.
+    // What follows momentum adds to what it has just stored for the same cluster.
     const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity, force_};
     const auto sum = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
+    const auto sum_with_remedies = [&](const auto&... others) {
+        has_remedies() ? sum(others..., artificial_viscosity(), artificial_stress()) : sum(others...);
+    };
     const auto sum_with_gradient = [&](const auto&... others) {
-        if (!temperature_gradient_) return sum(others...);
-        sum(others..., ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+        if (!temperature_gradient_) return sum_with_remedies(others...);
+        sum_with_remedies(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
     };
     if (!shift_)
         sum_with_gradient();
@@ -154,7 +156,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
         const double h = parameters_.smoothing_length;
         sum_with_gradient(ShiftingVelocity{
             mobility_, scene_.definition.numerics.shifting, h, 0.1 * parameters_.equation_of_state.sound_speed,
-            kernel_(scene_.spacing).value, 0.05 / h, particles_.volume, velocity_gradient_, particles_.mass,
+            kernel_(scene_.spacing).value, 0.05 / h, velocity_gradient_, particles_.mass,
             rest_density_ * scene_.particle_volume(), surface_->fields().companions, surface_->fewest_companions(),
             &surface_->fields().colour_gradient, *shift_});
     }
@@ -164,13 +166,10 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
     }
 }
 
-/// Walls and solids as the liquid before them sees them: their pressure, and from it their volume, their velocity and
-/// whatever else is summed with them.
-template <class... Others>
-void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others)
+/// Walls and solids as the liquid before them sees them: pressure, and from it density and volume.
+void FreeSurfaceFlow::extrapolate_pressure(const Neighbourhood& neighbourhood)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_extrapolation(false),
-                  others...);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_pressure(false));
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
@@ -181,12 +180,18 @@ void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, c
     }
 }
 
+/// The same: how they move.
+void FreeSurfaceFlow::extrapolate_velocity(const Neighbourhood& neighbourhood)
+{
+    const auto sum = [&](const auto&... terms) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), terms...);
+    };
+    shift_ ? sum(wall_velocity(), WallShift{mobility_, *shift_}) : sum(wall_velocity());
+}
+
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    if (shift_)
-        extrapolate_to_walls(neighbourhood, WallShift{mobility_, *shift_});
-    else
-        extrapolate_to_walls(neighbourhood);
+    extrapolate_velocity(neighbourhood);
     sum_over_places(neighbourhood);
 
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
@@ -204,11 +209,10 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
         particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
     });
-    extrapolate_to_walls(neighbourhood);
+    extrapolate_pressure(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
-    add_remedies(neighbourhood);
     add_cohesion(neighbourhood);
     accelerate(neighbourhood);
 }

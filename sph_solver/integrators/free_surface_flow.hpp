@@ -23,7 +23,8 @@ private:
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
-    template <class... Others> void extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others);
+    void extrapolate_velocity(const Neighbourhood& neighbourhood);
+    void extrapolate_pressure(const Neighbourhood& neighbourhood);
 
     CorrectionMatrix correction_;
     VelocityGradientFields velocity_gradient_;

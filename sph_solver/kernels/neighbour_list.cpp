@@ -167,9 +167,9 @@ void NeighbourList::find_neighbours(const Particles& particles)
                 const std::size_t begin = found.size();
                 list_cluster(particles, c, found);
                 list_images(particles, c);
-                const std::span<const Run> runs{found.data() + begin, found.size() - begin};
-                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(runs.size()),
-                                                        neighbours_in(runs)};
+                const std::span<const Listed> near{found.data() + begin, found.size() - begin};
+                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(near.size()),
+                                                        neighbours_in(near)};
             }
             // Growing by doubling leaves up to half of it unused.
             if (found.capacity() > found.size() + found.size() / 8) found.shrink_to_fit();
@@ -222,7 +222,7 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
 
 /// Two sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against each
 /// of this one's particles.
-void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const
+void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Listed>& found) const
 {
     const double reach = support_ + skin_;
     const auto& position = particles.position;
@@ -234,7 +234,6 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
 
     const Narrow x = narrow(position.x, cluster.first, middle.x), y = narrow(position.y, cluster.first, middle.y),
                  z = narrow(position.z, cluster.first, middle.z);
-    const std::size_t begin = found.size();
     for_each_cluster_near(box, [&](Index d) {
         const Cluster& near = clusters_[static_cast<std::size_t>(d)];
         const Narrow near_x = narrow(position.x, near.first, middle.x),
@@ -245,7 +244,8 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
             const Narrow dx = near_x - x[lane], dy = near_y - y[lane], dz = near_z - z[lane];
             nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);
         }
-        append_runs(found, begin, near.first, lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u));
+        const std::uint32_t reached = lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u);
+        if (reached != 0) found.push_back({near.first, reached});
     });
 }
 
@@ -403,7 +403,7 @@ std::size_t NeighbourList::bytes() const
                         cluster_of_.size() * sizeof(Index);
     for (const auto* lists : {&chunks_, &own_lists_})
         for (const auto& list : *lists)
-            total += list.capacity() * sizeof(Run);
+            total += list.capacity() * sizeof(Listed);
     for (const auto& list : image_runs_)
         total += sizeof(list) + list.capacity() * sizeof(ImageRun);
     return total + 3 * built_x_.size() * sizeof(double);

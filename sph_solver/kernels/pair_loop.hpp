@@ -1,13 +1,15 @@
 #pragma once
 
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "kernels/field_lanes.hpp"
-#include "kernels/mirrored.hpp"
 #include "kernels/neighbour_list.hpp"
 #include "kernels/places.hpp"
+#include "kernels/quantities.hpp"
 #include "kernels/smoothing_kernel.hpp"
 #include "particles/particles.hpp"
 
@@ -22,7 +24,19 @@ struct Pair
     Lanes kernel;          ///< W_ij
     Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
 
-    VectorLanes gradient() const { return gradient_over_r * offset; }
+    // The same weighted with the neighbour's volume, once for all terms that ask for it.
+    Lanes volume_kernel;          ///< V_j W_ij
+    Lanes volume_gradient_over_r; ///< V_j (1/r) dW/dr
+    VectorLanes volume_gradient;  ///< V_j ∇_i W_ij
+
+    Pair weighted(const Real& volume) const
+    {
+        Pair pair = *this;
+        pair.volume_kernel = volume * kernel;
+        pair.volume_gradient_over_r = volume * gradient_over_r;
+        pair.volume_gradient = pair.volume_gradient_over_r * offset;
+        return pair;
+    }
 };
 
 /// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
@@ -61,7 +75,8 @@ template <class Term> auto far_of(const Term& term, Index j)
 template <class... Terms> struct Neighbour
 {
     Place place;
-    std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
+    Real volume;
+    Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
 };
 
 /// visit(j, image, offset) for every particle that a cluster sees beyond a periodic or symmetry side. Few clusters see
@@ -113,16 +128,22 @@ template <class Kernel> struct PairMaker
 template <class... Terms> struct TermsOfCluster
 {
     using Sums = std::tuple<typename Terms::Sum...>;
-    using Fars = std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
+    using Fars = Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
 
     const std::tuple<const Terms&...>& terms;
-    std::tuple<typename Terms::Near...> near;
+    Shared<typename Terms::Near...> near;
 
     TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
-        : terms(all), near(std::apply([&](const Terms&... each) { return std::tuple{each.near(first)...}; }, all))
+        : terms(all),
+          near(std::apply([&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(first)...); },
+                          all))
     {}
 
-    bool all_ignore(const Fars& far) const { return all_ignore(far, std::index_sequence_for<Terms...>{}); }
+    template <std::size_t... t>
+    static bool all_ignore(const std::tuple<const Terms&...>& all, const Fars& far, std::index_sequence<t...>)
+    {
+        return (ignores(std::get<t>(all), far.template of<t>()) && ...);
+    }
     void add(const Fars& far, const Pair& pair, Sums& sums) const
     {
         add(far, pair, sums, std::index_sequence_for<Terms...>{});
@@ -133,70 +154,147 @@ template <class... Terms> struct TermsOfCluster
     }
 
 private:
-    template <std::size_t... t> bool all_ignore(const Fars& far, std::index_sequence<t...>) const
-    {
-        return (ignores(std::get<t>(terms), std::get<t>(far)) && ...);
-    }
     template <std::size_t... t> void add(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<t...>) const
     {
-        ((ignores(std::get<t>(terms), std::get<t>(far))
+        ((ignores(std::get<t>(terms), far.template of<t>())
               ? void()
-              : std::get<t>(terms).add(std::get<t>(near), std::get<t>(far), pair, std::get<t>(sums))),
+              : std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums))),
          ...);
     }
     template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
     {
-        (std::get<t>(terms).store(cluster, std::get<t>(near), std::get<t>(sums)), ...);
+        (std::get<t>(terms).store(cluster, near.template of<t>(), std::get<t>(sums)), ...);
     }
 };
 
-/// The sums over the neighbours that are listed; neighbour(j) gives a neighbour's record. All that it calls is compiled
-/// into it, so that sums stay in registers while neighbours pass by.
-template <class Kernel, class NeighbourOf, class... Terms>
+/// Appends the particles that are listed, in order; up to 16 more places may be written to. Returns the new end.
+inline Index* append(Index* end, const Listed& some)
+{
+#if defined(__AVX512F__)
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i all = _mm512_add_epi32(_mm512_set1_epi32(some.first), lane);
+    _mm512_storeu_si512(end, _mm512_maskz_compress_epi32(static_cast<__mmask16>(some.lanes), all));
+    return end + some.count();
+#else
+    for (int lane = 0; lane < lane_count; ++lane) {
+        *end = some.first + lane;
+        end += (some.lanes >> lane) & 1u;
+    }
+    return end;
+#endif
+}
+
+/// The neighbours of one cluster that add to its sums: records, and which of them, in the order of the list.
+template <class Record> struct SomeRecords
+{
+    const Record* records;
+    std::span<const Index> which; ///< two more at its end may be read
+};
+
+/// Makes them for cluster after cluster, in memory that each thread keeps.
+template <class Record> class NeighboursOfCluster
+{
+public:
+    /// From records of all particles.
+    template <class Ignored>
+    SomeRecords<Record> find(std::span<const Listed> near, const Record* records, const Ignored& ignored)
+    {
+        reserve(near);
+        Index* end = which_.data();
+        for (const Listed& some : near)
+            end = append(end, some);
+        if constexpr (!std::is_null_pointer_v<Ignored>) {
+            Index* kept = which_.data();
+            for (const Index* j = kept; j != end; ++j) {
+                *kept = *j;
+                kept += !ignored(records[*j]);
+            }
+            end = kept;
+        }
+        return {records, ended(end)};
+    }
+    /// Looked up one by one, where a pass concerns too few for a record of each.
+    template <class RecordOf, class Ignored>
+    SomeRecords<Record> look_up(std::span<const Listed> near, const RecordOf& record_of, const Ignored& ignored)
+    {
+        copies_.resize(reserve(near) * sizeof(Record));
+        auto* records = reinterpret_cast<Record*>(copies_.data());
+        Index count = 0;
+        for (const Listed& some : near)
+            some.for_each([&](Index j) {
+                new (records + count) Record(record_of(j));
+                if constexpr (std::is_null_pointer_v<Ignored>)
+                    ++count;
+                else
+                    count += !ignored(records[count]);
+            });
+        std::iota(which_.begin(), which_.begin() + count, Index{0});
+        return {records, ended(which_.data() + count)};
+    }
+
+private:
+    std::size_t reserve(std::span<const Listed> near)
+    {
+        const auto count = static_cast<std::size_t>(neighbours_in(near));
+        if (which_.size() < count + 16) which_.resize(count + 16);
+        return count;
+    }
+    std::span<const Index> ended(Index* end)
+    {
+        const auto count = static_cast<std::size_t>(end - which_.data());
+        end[0] = end[1] = count == 0 ? 0 : end[-1];
+        return {which_.data(), count};
+    }
+
+    std::vector<Index> which_;
+    std::vector<std::byte> copies_;
+};
+
+/// The sums over some neighbours. All that it calls is compiled into it, so that sums stay in registers while
+/// neighbours pass by.
+template <class Kernel, class... Terms>
 [[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
-sum_over_runs(std::span<const Run> runs, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
-              const TermsOfCluster<Terms...>& terms, const NeighbourOf& neighbour)
+sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
+         const TermsOfCluster<Terms...>& terms)
 {
     // Not what is returned itself, which would be kept in memory.
     typename TermsOfCluster<Terms...>::Sums sums{};
-    if constexpr ((Ignores<Terms> && ...)) {
-        for (const Run& run : runs)
-            for (Index j = run.first; j < run.first + run.count; ++j) {
-                const auto& other = neighbour(j);
-                if (!terms.all_ignore(other.far))
-                    terms.add(other.far, pair_at(offset_between(here, other.place)), sums);
-            }
-    }
-    else if (RunWalk walk(runs); walk.goes_on()) {
+    const auto* const records = neighbours.records;
+    const auto pair_with = [&](Index j) { return pair_at(offset_between(here, records[j].place)); };
+    const auto add = [&](Index j, const Pair& pair) {
+        const auto& other = records[j];
+        terms.add(other.far, pair.weighted(other.volume), sums);
+    };
+    if (!neighbours.which.empty()) {
         // One neighbour ahead: what a kernel takes longest for is under way while sums are added to.
-        Index j = walk.place();
-        Pair pair = pair_at(offset_between(here, neighbour(j).place));
-        do {
-            walk.advance();
-            const Index next = walk.place();
-            const Pair next_pair = pair_at(offset_between(here, neighbour(next).place));
-            terms.add(neighbour(j).far, pair, sums);
-            pair = next_pair;
-            j = next;
-        } while (walk.goes_on());
+        const Index* next = neighbours.which.data();
+        const Index* const end = next + neighbours.which.size();
+        Pair even = pair_with(next[0]);
+        for (; next + 1 < end; next += 2) {
+            const Pair odd = pair_with(next[1]);
+            add(next[0], even);
+            even = pair_with(next[2]);
+            add(next[1], odd);
+        }
+        if (next < end) add(next[0], even);
     }
     return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
 }
 
 /// Adds what a cluster sees beyond periodic and symmetry sides.
 template <class Kernel, class... Terms>
-[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const VectorField& position,
+[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const Particles& particles,
                                   const PairMaker<Kernel>& pair_at, const TermsOfCluster<Terms...>& terms,
                                   typename TermsOfCluster<Terms...>::Sums& sums)
 {
     for_each_image(
-        list, list.image_runs(c), position, list.cluster(c).first,
+        list, list.image_runs(c), particles.position, list.cluster(c).first,
         [&](Index j, const Image& image, const VectorLanes& offset) {
             auto far = std::apply(
-                [&](const Terms&... each) { return typename TermsOfCluster<Terms...>::Fars{far_of(each, j)...}; },
+                [&](const Terms&... each) { return typename TermsOfCluster<Terms...>::Fars(far_of(each, j)...); },
                 terms.terms);
-            if (image.mirrors()) std::apply([&](auto&... f) { ((f = mirrored(f, image.sign)), ...); }, far);
-            terms.add(far, pair_at(offset), sums);
+            if (image.mirrors()) far.turn(image.sign);
+            terms.add(far, pair_at(offset).weighted(real(particles.volume[j])), sums);
         });
 }
 
@@ -212,13 +310,14 @@ template <class Kernel, class... Terms>
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
 ///
-/// Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
+/// Near and Far may be put together of quantities that terms share (quantities.hpp), so that add() says `const auto&
+/// j`. Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
 /// symmetry side would have to turn). The particle itself is among its neighbours (distance zero,
 /// gradient zero, W = W(0)). Each sum is added up by one thread in the order of the list, so the result does not depend
 /// on the number of threads.
 ///
 /// Where most clusters take part, what neighbours are asked for is gathered once for the whole pass; where few do, it
-/// is looked up as they meet it. In double the numbers are the same, in float to its round-off.
+/// is looked up for each cluster. The numbers are the same.
 template <class Kernel, class... Terms>
 void for_each_pair(const NeighbourList& list, const Particles& particles, const Kernel& kernel,
                    std::span<const Index> clusters, const Terms&... terms)
@@ -228,36 +327,45 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     const PairMaker<Kernel> pair_at{kernel, 1e-18 * list.support() * list.support()};
     const Places places(list, particles.position);
     const std::tuple<const Terms&...> all_terms{terms...};
-    const auto sum_up = [&](const auto& neighbour) {
-        // A few clusters are done sooner than threads are woken.
-        const Index share = count > 512 ? 16 : 4;
-#pragma omp parallel if (count > 16)
-        {
-            const FlushedToZero no_denormals;
-#pragma omp for schedule(dynamic, share)
-            for (Index k = 0; k < count; ++k) {
-                const Index c = clusters[static_cast<std::size_t>(k)];
-                const Cluster cluster = list.cluster(c);
-                if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-                const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
-                auto sums =
-                    sum_over_runs(list.runs(c), places.of_cluster(cluster.first), pair_at, of_cluster, neighbour);
-                if (!list.image_runs(c).empty()) add_images(list, c, particles.position, pair_at, of_cluster, sums);
-                of_cluster.store(cluster, sums);
-            }
-        }
+    const auto record = [&](Index j) {
+        return Record{places(j), real(particles.volume[j]), decltype(Record::far)(far_of(terms, j)...)};
     };
-
-    if (2 * count < list.cluster_count()) {
-        sum_up([&](Index j) { return Record{places(j), {far_of(terms, j)...}}; });
-        return;
-    }
-    const Index all = particles.count();
-    auto* records = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
+    const auto ignored = [&] {
+        if constexpr ((Ignores<Terms> && ...))
+            return [&](const Record& other) {
+                return TermsOfCluster<Terms...>::all_ignore(all_terms, other.far, std::index_sequence_for<Terms...>{});
+            };
+        else
+            return nullptr;
+    }();
+    const Record* records = nullptr;
+    if (2 * count >= list.cluster_count()) {
+        const Index all = particles.count();
+        auto* made = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
 #pragma omp parallel for schedule(static)
-    for (Index j = 0; j < all; ++j)
-        new (records + j) Record{places(j), {far_of(terms, j)...}};
-    sum_up([records](Index j) -> const Record& { return records[j]; });
+        for (Index j = 0; j < all; ++j)
+            new (made + j) Record(record(j));
+        records = made;
+    }
+    // A few clusters are done sooner than threads are woken.
+    const Index share = count > 512 ? 16 : 4;
+#pragma omp parallel if (count > 16)
+    {
+        const FlushedToZero no_denormals;
+        static thread_local NeighboursOfCluster<Record> neighbours;
+#pragma omp for schedule(dynamic, share)
+        for (Index k = 0; k < count; ++k) {
+            const Index c = clusters[static_cast<std::size_t>(k)];
+            const Cluster cluster = list.cluster(c);
+            if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+            const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+            const auto found = records ? neighbours.find(list.near(c), records, ignored)
+                                       : neighbours.look_up(list.near(c), record, ignored);
+            auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
+            if (!list.image_runs(c).empty()) add_images(list, c, particles, pair_at, of_cluster, sums);
+            of_cluster.store(cluster, sums);
+        }
+    }
 }
 
 /// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.

@@ -22,33 +22,26 @@ struct FreeSurfaceMomentum
     double viscosity; ///< μ of the liquid, Pa·s
     VectorField& force;
 
-    struct Near
-    {
-        Lanes volume, pressure;
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real volume, pressure;
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Pressure, quantity::Velocity>;
+    using Far = Of<Real, quantity::Pressure, quantity::Velocity>;
     struct Sum
     {
-        VectorLanes force{};
+        VectorLanes push{}, drag{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {lanes(volume, first), lanes(pressure, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(pressure[j]), real(velocity[j])}; }
+    Near near(Index first) const { return {lanes(pressure, first), lanes(velocity, first)}; }
+    Far far(Index j) const { return {real(pressure[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes weight = i.volume * j.volume * pair.gradient_over_r;
-        sum.force -= (weight * (i.pressure + j.pressure)) * pair.offset;
-        sum.force += (2.0 * viscosity * weight) * (i.velocity - broadcast(j.velocity));
+        sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
+        sum.drag += pair.volume_gradient_over_r * (i.velocity - broadcast(j.velocity));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_if(force, cluster, sum.force, [&](Index i) { return mobility.weight[i] != 0.0; });
+        const Lanes volume_i = lanes(volume, cluster.first);
+        store_if(force, cluster, volume_i * (sum.push + Lanes(2.0 * viscosity) * sum.drag),
+                 [&](Index i) { return mobility.weight[i] != 0.0; });
     }
 };
 
