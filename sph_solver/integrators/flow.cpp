@@ -7,7 +7,6 @@
 #include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
 #include "models/surface_load.hpp"
-#include "models/surface_temperature.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -47,7 +46,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
                             metal.vaporization_heat.value(), metal.molar_mass.value()};
     }
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
-    if (temperature_ && (with_tension_ || with_recoil_))
+    if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
@@ -159,12 +158,19 @@ void Flow::find_load(const Neighbourhood& neighbourhood)
                   SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
 
-void Flow::accelerate(const Neighbourhood& neighbourhood)
+SurfaceTemperature Flow::surface_temperature()
+{
+    return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
+}
+
+void Flow::find_surface_temperature(const Neighbourhood& neighbourhood)
 {
     if (mean_temperature_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
-                                         surface_->fields().delta, *mean_temperature_});
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), surface_temperature());
+}
+
+void Flow::accelerate(const Neighbourhood& neighbourhood)
+{
     if (load_) find_load(neighbourhood);
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;

@@ -11,6 +11,7 @@
 #include "models/artificial_viscosity.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
+#include "models/surface_temperature.hpp"
 #include "models/vapour_pressure.hpp"
 #include "models/wall_extrapolation.hpp"
 
@@ -55,7 +56,10 @@ protected:
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
     void add_cohesion(const Neighbourhood& neighbourhood);
-    /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
+    /// The temperature that surface forces are evaluated at, as a term of some pass or in one of its own.
+    SurfaceTemperature surface_temperature();
+    void find_surface_temperature(const Neighbourhood& neighbourhood);
+    /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature and the surface temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 
     Scene& scene_;

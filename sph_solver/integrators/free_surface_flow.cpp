@@ -65,29 +65,35 @@ void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
     velocity_gradient_.reset(place);
+    if (density_gradient_) density_gradient_->set(place, {});
     if (!shift_) return;
     shift_->set(place, {});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
     (*balance_)[place] = 1.0;
 }
 
-/// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.
+/// Everything that needs nothing but places and the state before: the matrices that correct gradients, rates of
+/// density, the gradient of velocity, the colour gradient, and what shifting by the last drift carried between
+/// particles. Density diffuses by the gradient of density that the last force pass has found for the same densities,
+/// before the drift.
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
-    const auto& clusters = neighbourhood.moving();
+    const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
     const Continuity continuity{mobility_, particles_.density, particles_.velocity, density_rate_};
     const VelocityGradient gradient{mobility_, particles_.velocity, correction_, velocity_gradient_};
-    const auto sum = [&](const auto&... exchanges) {
-        if (!density_gradient_)
-            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
-                                 exchanges...);
-        const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
-                                   parameters_.equation_of_state.sound_speed;
-        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
-                      DensityDiffusion{mobility_, particles_.density, *density_gradient_, diffusivity, density_rate_},
-                      exchanges...);
+    const auto sum = [&](const auto&... others) {
+        const auto sum_all = [&](const auto&... diffusion) {
+            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction, continuity,
+                          gradient, diffusion..., others...);
+        };
+        if (!density_gradient_) return sum_all();
+        sum_all(DensityDiffusion{mobility_, particles_.density, *density_gradient_,
+                                 scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                                     parameters_.equation_of_state.sound_speed,
+                                 density_rate_});
     };
-    if (!shift_) return sum();
+    if (!surface_) return sum();
+    if (!shift_) return sum(surface_->colour_gradient());
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
@@ -96,27 +102,8 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
             mobility_, particles_.volume, particles_.density, particles_.velocity,   *shift_,     *balance_,
             enthalpy_, density_rate_,     *mass_rate_,        *shift_momentum_rate_, energy_rate_};
     };
-    enthalpy_ ? sum(exchange(std::true_type{})) : sum(exchange(std::false_type{}));
-}
-
-/// The sums that need nothing but places: the colour gradient, the matrices that correct gradients, where something
-/// needs them, and with the same pass the gradient of density.
-void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
-{
-    const auto sum = [&](const auto&... terms) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
-    };
-    const auto sum_with_surface = [&](const auto&... terms) {
-        surface_ ? sum(terms..., surface_->colour_gradient()) : sum(terms...);
-    };
-    const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
-    if (density_gradient_) {
-        sum_with_surface(correction, ScalarGradient{mobility_, particles_.density, *density_gradient_});
-        neighbourhood.for_each_moving(
-            [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
-    }
-    else
-        sum_with_surface(correction);
+    enthalpy_ ? sum(surface_->colour_gradient(), exchange(std::true_type{}))
+              : sum(surface_->colour_gradient(), exchange(std::false_type{}));
 }
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
@@ -128,8 +115,9 @@ void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double t
     }
 }
 
-/// Forces between particles, and in the same pass the shifting velocity of the next drift and the gradient that drives
-/// Marangoni flow: all of them need nothing but the state as it is now.
+/// Forces between particles, and in the same pass the shifting velocity of the next drift, the gradient of density by
+/// which that of the next step diffuses, and what Marangoni flow needs of temperature: all of them need nothing but the
+/// state as it is now.
 void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 {
     const FreeSurfaceMomentum momentum{mobility_,
@@ -146,9 +134,14 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
     const auto sum_with_remedies = [&](const auto&... others) {
         has_remedies() ? sum(others..., artificial_viscosity(), artificial_stress()) : sum(others...);
     };
+    const auto sum_with_density = [&](const auto&... others) {
+        if (!density_gradient_) return sum_with_remedies(others...);
+        sum_with_remedies(others..., ScalarGradient{mobility_, particles_.density, *density_gradient_});
+    };
     const auto sum_with_gradient = [&](const auto&... others) {
-        if (!temperature_gradient_) return sum_with_remedies(others...);
-        sum_with_remedies(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
+        if (!temperature_gradient_) return sum_with_density(others...);
+        sum_with_density(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_},
+                         surface_temperature());
     };
     if (!shift_)
         sum_with_gradient();
@@ -162,7 +155,8 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
     }
     for (const Index i : neighbourhood.moving_particles()) {
         if (shift_) force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
-        if (temperature_gradient_) temperature_gradient_->set(i, correction_[i] * (*temperature_gradient_)[i]);
+        for (VectorField* gradient : {temperature_gradient_, density_gradient_})
+            if (gradient) gradient->set(i, correction_[i] * (*gradient)[i]);
     }
 }
 
@@ -192,7 +186,6 @@ void FreeSurfaceFlow::extrapolate_velocity(const Neighbourhood& neighbourhood)
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
     extrapolate_velocity(neighbourhood);
-    sum_over_places(neighbourhood);
 
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
     // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
@@ -214,6 +207,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
     add_cohesion(neighbourhood);
+    if (!temperature_gradient_) find_surface_temperature(neighbourhood);
     accelerate(neighbourhood);
 }
 

@@ -19,7 +19,6 @@ public:
 
 private:
     void start_hydrostatic();
-    void sum_over_places(const Neighbourhood& neighbourhood);
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);

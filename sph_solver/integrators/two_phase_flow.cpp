@@ -60,6 +60,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
         surface_->find(neighbourhood);
     }
     find_forces(neighbourhood);
+    find_surface_temperature(neighbourhood);
     accelerate(neighbourhood);
 }
 

@@ -70,14 +70,19 @@ void NeighbourList::sort_into_columns(Particles& particles)
     const Index count = particles.count();
     const auto& position = particles.position;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    upper_ = {-infinity, -infinity, -infinity};
-    lower_ = {infinity, infinity, infinity};
+    double x0 = infinity, y0 = infinity, z0 = infinity, x1 = -infinity, y1 = -infinity, z1 = -infinity;
+#pragma omp parallel for schedule(static) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1) if (count > 8192)
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        lower_ = least(lower_, p);
-        upper_ = most(upper_, p);
+        x0 = std::min(x0, p.x);
+        y0 = std::min(y0, p.y);
+        z0 = std::min(z0, p.z);
+        x1 = std::max(x1, p.x);
+        y1 = std::max(y1, p.y);
+        z1 = std::max(z1, p.z);
     }
-    origin_ = lower_;
+    lower_ = origin_ = {x0, y0, z0};
+    upper_ = {x1, y1, z1};
     const double columns_x = std::floor((upper_.x - lower_.x) / column_width_) + 1.0;
     const double columns_y = std::floor((upper_.y - lower_.y) / column_width_) + 1.0;
     if (!(columns_x * columns_y < 1e8))
@@ -87,12 +92,13 @@ void NeighbourList::sort_into_columns(Particles& particles)
 
     const auto columns = static_cast<std::size_t>(columns_x_) * static_cast<std::size_t>(columns_y_);
     std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
+#pragma omp parallel for schedule(static) if (count > 8192)
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        const Index column = column_y(p.y) * columns_x_ + column_x(p.x);
-        column_of[static_cast<std::size_t>(i)] = column;
-        ++begin[static_cast<std::size_t>(column) + 1];
+        column_of[static_cast<std::size_t>(i)] = column_y(p.y) * columns_x_ + column_x(p.x);
     }
+    for (const Index column : column_of)
+        ++begin[static_cast<std::size_t>(column) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<Index> order(static_cast<std::size_t>(count)), next(begin.begin(), begin.end() - 1);
     for (Index i = 0; i < count; ++i)

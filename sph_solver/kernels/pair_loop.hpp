@@ -29,13 +29,11 @@ struct Pair
     Lanes volume_gradient_over_r; ///< V_j (1/r) dW/dr
     VectorLanes volume_gradient;  ///< V_j ∇_i W_ij
 
-    Pair weighted(const Real& volume) const
+    void weigh(const Real& volume)
     {
-        Pair pair = *this;
-        pair.volume_kernel = volume * kernel;
-        pair.volume_gradient_over_r = volume * gradient_over_r;
-        pair.volume_gradient = pair.volume_gradient_over_r * offset;
-        return pair;
+        volume_kernel = volume * kernel;
+        volume_gradient_over_r = volume * gradient_over_r;
+        volume_gradient = volume_gradient_over_r * offset;
     }
 };
 
@@ -79,6 +77,23 @@ template <class... Terms> struct Neighbour
     Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
 };
 
+/// Makes it.
+template <class... Terms> struct RecordOf
+{
+    using Record = Neighbour<Terms...>;
+    using Far = decltype(Record::far);
+
+    const Particles& particles;
+    const Places& places;
+    const std::tuple<const Terms&...>& terms;
+
+    Far far(Index j) const
+    {
+        return std::apply([&](const Terms&... each) { return Far(far_of(each, j)...); }, terms);
+    }
+    Record operator()(Index j, const Far& far) const { return {places(j), real(particles.volume[j]), far}; }
+};
+
 /// visit(j, image, offset) for every particle that a cluster sees beyond a periodic or symmetry side. Few clusters see
 /// any, so that this way is plain, and offsets are taken in double.
 template <class Visit>
@@ -110,16 +125,19 @@ void release_pass_memory();
 template <class Kernel> struct PairMaker
 {
     const Kernel& kernel;
-    double tiny; ///< added to squares, so that none is zero, m²
+    double tiny;     ///< added to squares, so that none is zero, m²
+    double farthest; ///< square beyond which the kernel is zero, m²
 
-    Pair operator()(const VectorLanes& offset) const
+    Lanes square(const VectorLanes& offset) const { return dot(offset, offset) + tiny; }
+    Pair operator()(const VectorLanes& offset, const Real& volume) const
     {
         Pair pair;
         pair.offset = offset;
-        pair.square = dot(offset, offset) + tiny;
+        pair.square = square(offset);
         const auto w = kernel.of_square(pair.square);
         pair.kernel = w.value;
         pair.gradient_over_r = w.gradient_over_r;
+        pair.weigh(volume);
         return pair;
     }
 };
@@ -144,9 +162,11 @@ template <class... Terms> struct TermsOfCluster
     {
         return (ignores(std::get<t>(all), far.template of<t>()) && ...);
     }
+    /// Terms from the first to the one before the end.
+    template <std::size_t first = 0, std::size_t end = sizeof...(Terms)>
     void add(const Fars& far, const Pair& pair, Sums& sums) const
     {
-        add(far, pair, sums, std::index_sequence_for<Terms...>{});
+        add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
     }
     void store(const Cluster& cluster, const Sums& sums) const
     {
@@ -154,12 +174,15 @@ template <class... Terms> struct TermsOfCluster
     }
 
 private:
-    template <std::size_t... t> void add(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<t...>) const
+    template <std::size_t first, std::size_t... k>
+    void add_from(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<k...>) const
     {
-        ((ignores(std::get<t>(terms), far.template of<t>())
-              ? void()
-              : std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums))),
-         ...);
+        (add_one<first + k>(far, pair, sums), ...);
+    }
+    template <std::size_t t> void add_one(const Fars& far, const Pair& pair, Sums& sums) const
+    {
+        if (!ignores(std::get<t>(terms), far.template of<t>()))
+            std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums));
     }
     template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
     {
@@ -188,7 +211,7 @@ inline Index* append(Index* end, const Listed& some)
 template <class Record> struct SomeRecords
 {
     const Record* records;
-    std::span<const Index> which; ///< two more at its end may be read
+    std::span<const Index> which;
 };
 
 /// Makes them for cluster after cluster, in memory that each thread keeps.
@@ -207,11 +230,11 @@ public:
             Index* kept = which_.data();
             for (const Index* j = kept; j != end; ++j) {
                 *kept = *j;
-                kept += !ignored(records[*j]);
+                kept += !ignored(records[*j].far);
             }
             end = kept;
         }
-        return {records, ended(end)};
+        return {records, {which_.data(), end}};
     }
     /// Looked up one by one, where a pass concerns too few for a record of each.
     template <class RecordOf, class Ignored>
@@ -222,14 +245,14 @@ public:
         Index count = 0;
         for (const Listed& some : near)
             some.for_each([&](Index j) {
-                new (records + count) Record(record_of(j));
-                if constexpr (std::is_null_pointer_v<Ignored>)
-                    ++count;
-                else
-                    count += !ignored(records[count]);
+                const auto far = record_of.far(j);
+                if constexpr (!std::is_null_pointer_v<Ignored>)
+                    if (ignored(far)) return;
+                new (records + count) Record(record_of(j, far));
+                ++count;
             });
         std::iota(which_.begin(), which_.begin() + count, Index{0});
-        return {records, ended(which_.data() + count)};
+        return {records, {which_.data(), static_cast<std::size_t>(count)}};
     }
 
 private:
@@ -239,19 +262,30 @@ private:
         if (which_.size() < count + 16) which_.resize(count + 16);
         return count;
     }
-    std::span<const Index> ended(Index* end)
-    {
-        const auto count = static_cast<std::size_t>(end - which_.data());
-        end[0] = end[1] = count == 0 ? 0 : end[-1];
-        return {which_.data(), count};
-    }
-
     std::vector<Index> which_;
     std::vector<std::byte> copies_;
 };
 
+/// visit(first, end) for groups of terms that follow each other, each of them with no more sums than there are
+/// registers for beside what they are made of.
+template <std::size_t first, class... Terms, class Visit> void for_each_group(const Visit& visit)
+{
+    constexpr std::size_t registers = 24;
+    constexpr std::size_t end = [] {
+        constexpr std::size_t sums[]{sizeof(typename Terms::Sum) / sizeof(Lanes)...};
+        std::size_t last = first + 1;
+        for (std::size_t total = sums[first]; last < sizeof...(Terms) && total + sums[last] <= registers; ++last)
+            total += sums[last];
+        return last;
+    }();
+    visit(std::integral_constant<std::size_t, first>{}, std::integral_constant<std::size_t, end>{});
+    if constexpr (end < sizeof...(Terms)) for_each_group<end, Terms...>(visit);
+}
+
 /// The sums over some neighbours. All that it calls is compiled into it, so that sums stay in registers while
-/// neighbours pass by.
+/// neighbours pass by. Kernels come first, for a few neighbours together, then the terms: what a kernel takes longest
+/// for (a root, powers) would otherwise hold up the sums, and a neighbour that turns out to be beyond the support of
+/// all particles of the cluster costs no more than its distance.
 template <class Kernel, class... Terms>
 [[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
 sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
@@ -260,42 +294,56 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& h
     // Not what is returned itself, which would be kept in memory.
     typename TermsOfCluster<Terms...>::Sums sums{};
     const auto* const records = neighbours.records;
-    const auto pair_with = [&](Index j) { return pair_at(offset_between(here, records[j].place)); };
-    const auto add = [&](Index j, const Pair& pair) {
-        const auto& other = records[j];
-        terms.add(other.far, pair.weighted(other.volume), sums);
-    };
-    if (!neighbours.which.empty()) {
-        // One neighbour ahead: what a kernel takes longest for is under way while sums are added to.
-        const Index* next = neighbours.which.data();
-        const Index* const end = next + neighbours.which.size();
-        Pair even = pair_with(next[0]);
-        for (; next + 1 < end; next += 2) {
-            const Pair odd = pair_with(next[1]);
-            add(next[0], even);
-            even = pair_with(next[2]);
-            add(next[1], odd);
+    const Index* next = neighbours.which.data();
+    const Index* const end = next + neighbours.which.size();
+    // An array for each number of a pair: those that no term asks for are left out. Bare registers, which nothing sets.
+    constexpr int most = 32;
+    using Register = Lanes::Register;
+    Register x[most], y[most], z[most], square[most], kernel[most], gradient_over_r[most];
+    Index neighbour[most];
+    while (next < end) {
+        int count = 0;
+        for (const Index* const last = std::min(next + most, end); next < last; ++next) {
+            const VectorLanes offset = offset_between(here, records[*next].place);
+            const Lanes r2 = pair_at.square(offset);
+            const auto w = pair_at.kernel.of_square(r2);
+            neighbour[count] = *next;
+            x[count] = offset.x.values();
+            y[count] = offset.y.values();
+            z[count] = offset.z.values();
+            square[count] = r2.values();
+            kernel[count] = w.value.values();
+            gradient_over_r[count] = w.gradient_over_r.values();
+            count += may_be_below(r2, pair_at.farthest);
         }
-        if (next < end) add(next[0], even);
+        for_each_group<0, Terms...>([&](auto first_term, auto end_term) {
+            for (int k = 0; k < count; ++k) {
+                const auto& other = records[neighbour[k]];
+                Pair pair;
+                pair.offset = {Lanes(x[k]), Lanes(y[k]), Lanes(z[k])};
+                pair.square = Lanes(square[k]);
+                pair.kernel = Lanes(kernel[k]);
+                pair.gradient_over_r = Lanes(gradient_over_r[k]);
+                pair.weigh(other.volume);
+                terms.template add<first_term(), end_term()>(other.far, pair, sums);
+            }
+        });
     }
     return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
 }
 
 /// Adds what a cluster sees beyond periodic and symmetry sides.
 template <class Kernel, class... Terms>
-[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const Particles& particles,
+[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const RecordOf<Terms...>& record,
                                   const PairMaker<Kernel>& pair_at, const TermsOfCluster<Terms...>& terms,
                                   typename TermsOfCluster<Terms...>::Sums& sums)
 {
-    for_each_image(
-        list, list.image_runs(c), particles.position, list.cluster(c).first,
-        [&](Index j, const Image& image, const VectorLanes& offset) {
-            auto far = std::apply(
-                [&](const Terms&... each) { return typename TermsOfCluster<Terms...>::Fars(far_of(each, j)...); },
-                terms.terms);
-            if (image.mirrors()) far.turn(image.sign);
-            terms.add(far, pair_at(offset).weighted(real(particles.volume[j])), sums);
-        });
+    for_each_image(list, list.image_runs(c), record.particles.position, list.cluster(c).first,
+                   [&](Index j, const Image& image, const VectorLanes& offset) {
+                       auto far = record.far(j);
+                       if (image.mirrors()) far.turn(image.sign);
+                       terms.add(far, pair_at(offset, real(record.particles.volume[j])), sums);
+                   });
 }
 
 /// Sums over neighbours, several of them in one pass. A term is a struct with
@@ -324,16 +372,15 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
 {
     using Record = Neighbour<Terms...>;
     const auto count = static_cast<Index>(clusters.size());
-    const PairMaker<Kernel> pair_at{kernel, 1e-18 * list.support() * list.support()};
+    const double support_squared = list.support() * list.support();
+    const PairMaker<Kernel> pair_at{kernel, 1e-18 * support_squared, (1.0 + 1e-5) * support_squared};
     const Places places(list, particles.position);
     const std::tuple<const Terms&...> all_terms{terms...};
-    const auto record = [&](Index j) {
-        return Record{places(j), real(particles.volume[j]), decltype(Record::far)(far_of(terms, j)...)};
-    };
+    const RecordOf<Terms...> record{particles, places, all_terms};
     const auto ignored = [&] {
         if constexpr ((Ignores<Terms> && ...))
-            return [&](const Record& other) {
-                return TermsOfCluster<Terms...>::all_ignore(all_terms, other.far, std::index_sequence_for<Terms...>{});
+            return [&](const auto& far) {
+                return TermsOfCluster<Terms...>::all_ignore(all_terms, far, std::index_sequence_for<Terms...>{});
             };
         else
             return nullptr;
@@ -344,7 +391,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
         auto* made = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
 #pragma omp parallel for schedule(static)
         for (Index j = 0; j < all; ++j)
-            new (made + j) Record(record(j));
+            new (made + j) Record(record(j, record.far(j)));
         records = made;
     }
     // A few clusters are done sooner than threads are woken.
@@ -362,7 +409,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             const auto found = records ? neighbours.find(list.near(c), records, ignored)
                                        : neighbours.look_up(list.near(c), record, ignored);
             auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
-            if (!list.image_runs(c).empty()) add_images(list, c, particles, pair_at, of_cluster, sums);
+            if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
             of_cluster.store(cluster, sums);
         }
     }

@@ -10,7 +10,8 @@ namespace cupel::inline CUPEL_ENGINE
 ///   dρ_i/dt += δ h c₀ Σ_j 2 V_j ψ_ij·∇W_ij                                                       [kg/(m³ s)]
 ///   ψ_ij     = [(ρ_j − ρ_i)/r − ½(⟨∇ρ⟩_i + ⟨∇ρ⟩_j)·e_ji] e_ji,   e_ji = (x_j − x_i)/r
 ///
-/// Between liquid particles; walls and solids take no part.
+/// Between liquid particles; walls and solids take no part. ⟨∇ρ⟩ may be that of the places before the last drift: the
+/// term is small, and published schemes keep all of it for a whole Runge-Kutta step.
 struct DensityDiffusion
 {
     Mobility mobility;
