@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -207,6 +209,36 @@ inline Index* append(Index* end, const Listed& some)
 #endif
 }
 
+/// Which particles of a cluster a pass does not ignore, a bit for each: found where it is first asked, since a pass
+/// that looks up its neighbours is near few clusters, and each of those is near many others.
+class LanesOfInterest
+{
+public:
+    explicit LanesOfInterest(const NeighbourList& list)
+        : list_(list), lanes_(static_cast<std::size_t>(list.cluster_count()), unknown)
+    {}
+
+    template <class Ignored> std::uint32_t of(Index particle, const Ignored& ignored)
+    {
+        const Index c = list_.cluster_of(particle);
+        // Threads may find the same bits side by side.
+        const std::atomic_ref<std::uint32_t> kept(lanes_[static_cast<std::size_t>(c)]);
+        std::uint32_t lanes = kept.load(std::memory_order_relaxed);
+        if (lanes != unknown) return lanes;
+        const Cluster& cluster = list_.cluster(c);
+        lanes = 0;
+        for (Index k = 0; k < cluster.count; ++k)
+            lanes |= static_cast<std::uint32_t>(!ignored(cluster.first + k)) << k;
+        kept.store(lanes, std::memory_order_relaxed);
+        return lanes;
+    }
+
+private:
+    static constexpr std::uint32_t unknown = ~0u;
+    const NeighbourList& list_;
+    std::vector<std::uint32_t> lanes_;
+};
+
 /// The neighbours of one cluster that add to its sums: records, and which of them, in the order of the list.
 template <class Record> struct SomeRecords
 {
@@ -237,20 +269,15 @@ public:
         return {records, {which_.data(), end}};
     }
     /// Looked up one by one, where a pass concerns too few for a record of each.
-    template <class RecordOf, class Ignored>
-    SomeRecords<Record> look_up(std::span<const Listed> near, const RecordOf& record_of, const Ignored& ignored)
+    template <class RecordOf, class Wanted>
+    SomeRecords<Record> look_up(std::span<const Listed> near, const RecordOf& record_of, const Wanted& wanted)
     {
         copies_.resize(reserve(near) * sizeof(Record));
         auto* records = reinterpret_cast<Record*>(copies_.data());
         Index count = 0;
         for (const Listed& some : near)
-            some.for_each([&](Index j) {
-                const auto far = record_of.far(j);
-                if constexpr (!std::is_null_pointer_v<Ignored>)
-                    if (ignored(far)) return;
-                new (records + count) Record(record_of(j, far));
-                ++count;
-            });
+            Listed{some.first, some.lanes & wanted(some.first)}.for_each(
+                [&](Index j) { new (records + count++) Record(record_of(j, record_of.far(j))); });
         std::iota(which_.begin(), which_.begin() + count, Index{0});
         return {records, {which_.data(), static_cast<std::size_t>(count)}};
     }
@@ -385,6 +412,13 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
         else
             return nullptr;
     }();
+    std::optional<LanesOfInterest> of_interest;
+    const auto wanted = [&](Index first) -> std::uint32_t {
+        if constexpr ((Ignores<Terms> && ...))
+            return of_interest->of(first, [&](Index j) { return ignored(record.far(j)); });
+        else
+            return ~0u;
+    };
     const Record* records = nullptr;
     if (2 * count >= list.cluster_count()) {
         const Index all = particles.count();
@@ -394,6 +428,8 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             new (made + j) Record(record(j, record.far(j)));
         records = made;
     }
+    else if constexpr ((Ignores<Terms> && ...))
+        of_interest.emplace(list);
     // A few clusters are done sooner than threads are woken.
     const Index share = count > 512 ? 16 : 4;
 #pragma omp parallel if (count > 16)
@@ -407,7 +443,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
             const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
             const auto found = records ? neighbours.find(list.near(c), records, ignored)
-                                       : neighbours.look_up(list.near(c), record, ignored);
+                                       : neighbours.look_up(list.near(c), record, wanted);
             auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
             if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
             of_cluster.store(cluster, sums);
