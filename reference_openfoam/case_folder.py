@@ -92,9 +92,12 @@ class CaseFolder:
                 shutil.rmtree(folder/other)
         return time, name
 
-    def thin_out(self, keep: int = 2) -> None:
-        """Remove complete times but the newest `keep`."""
-        for _, name in self.complete_times()[:-keep]:
+    def thin_out(self, seen: list[tuple[float, str]], keep: int = 2) -> None:
+        """Remove all but the newest `keep` of the complete times that the caller has seen to, earliest first.
+
+        The solver goes on meanwhile: what it has completed since then is not yet converted.
+        """
+        for _, name in seen[:-keep]:
             for folder, _ in self.parts():
                 shutil.rmtree(folder/name)
 
@@ -115,7 +118,8 @@ def _times(folder: Path) -> list[str]:
             float(path.name)
         except ValueError:
             continue
-        found.append(path.name)
+        if path.is_dir():
+            found.append(path.name)
     return found
 
 

@@ -111,8 +111,9 @@ def _solve(case: ResolvedCase, meshes: MeshSequence, written: CaseFolder, output
 
 def _convert(case: ResolvedCase, written: CaseFolder, snapshots: SnapshotWriter) -> None:
     """Convert complete times that are snapshots and not yet there, then thin the checkpoints out."""
-    for time, name in written.complete_times():
+    complete = written.complete_times()
+    for time, name in complete:
         index = snapshot_index(case, time)
         if index is not None and not (snapshots.folder/f"fields_{index:06d}.vtu").exists():
             snapshots.write(written, name, index)
-    written.thin_out()
+    written.thin_out(complete)

@@ -2,15 +2,9 @@
 
 namespace cupel
 {
-tmp<surfaceScalarField> weighted_interface_gradient(const Scene& scene, const Fields& fields)
+tmp<surfaceScalarField> interface_step_gradient(const Fields& fields)
 {
-    const scalar primary = scene.primary.density, surrounding = scene.surrounding.density,
-                 scale = 2 / (primary + surrounding);
-    const volScalarField weight("mass_weight", map_field(fields.fraction, "mass_weight", dimless, [=](scalar share) {
-                                    return scale *
-                                           (surrounding * share + 0.5 * (primary - surrounding) * share * mag(share));
-                                }));
-    return fvc::snGrad(weight);
+    return fvc::snGrad(smooth_step(fields)());
 }
 
 void add_capillary_force(surfaceScalarField& force, const surfaceScalarField& interface_gradient, const Scene& scene,

@@ -1,19 +1,21 @@
 /// Surface tension as a balanced continuum force on faces (Brackbill 1992; Francois 2006).
 ///
-///   F = σ(T) κ ∂W/∂n          [N/m³] on a face,     W(α) = 2 [ρ₂ α + ½ (ρ₁ − ρ₂) α²]/(ρ₁ + ρ₂)
+///   F = σ(T) κ ∂S/∂n          [N/m³] on a face,     S(α) = 3α² − 2α³
 ///
-/// W runs from 0 to 1 as α does and puts the force where the mass is (dW/dα ∝ ρ), so that a light gas is not thrown
-/// about; for equal densities W = α. Solid metal has no mobile surface: the force carries the liquid fraction there.
+/// S steps from 0 to 1 as α does, in fewer cells, so that the pressure of the surface acts where the surface is; α
+/// itself puts a part of it a cell too deep or too high. A light gas is not thrown about by it, because accelerations
+/// on faces have the mean of the two cells' densities (momentum_equation.hpp): ∂S/∂n / ρ stays within three times that
+/// of a step in proportion to mass. Solid metal has no mobile surface: the force carries the liquid fraction there.
 #pragma once
 
 #include "interface_geometry.hpp"
 
 namespace cupel
 {
-/// ∂W/∂n on faces [1/m]: shared by the capillary force and the recoil pressure.
-tmp<surfaceScalarField> weighted_interface_gradient(const Scene& scene, const Fields& fields);
+/// ∂S/∂n on faces [1/m]: shared by the capillary force and the recoil pressure.
+tmp<surfaceScalarField> interface_step_gradient(const Fields& fields);
 
-/// Adds σ κ ∂W/∂n to `force` [N/m³].
+/// Adds σ κ ∂S/∂n to `force` [N/m³].
 void add_capillary_force(surfaceScalarField& force, const surfaceScalarField& interface_gradient, const Scene& scene,
                          const Fields& fields, const InterfaceGeometry& geometry);
 } // namespace cupel

@@ -3,6 +3,14 @@
 
 namespace cupel
 {
+tmp<volScalarField> smooth_step(const Fields& fields)
+{
+    return map_field(fields.fraction, "smooth_step", dimless, [](scalar share) {
+        const scalar bounded = min(max(share, scalar(0)), scalar(1));
+        return sqr(bounded) * (3 - 2 * bounded);
+    });
+}
+
 InterfaceGeometry::InterfaceGeometry(const Scene& scene, Fields& fields)
     : scene_(scene), fields_(fields), smoothing_passes_(scene.numerics.get<label>("curvature_smoothing_passes")),
       averaging_passes_(scene.numerics.get<label>("curvature_averaging_passes")),

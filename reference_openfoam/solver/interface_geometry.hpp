@@ -13,6 +13,9 @@
 
 namespace cupel
 {
+/// S(α) = 3α² − 2α³: a step like α, from 0 to 1, in fewer cells. Surface forces act where it rises.
+tmp<volScalarField> smooth_step(const Fields& fields);
+
 class InterfaceGeometry
 {
 public:

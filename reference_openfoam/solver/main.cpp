@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -90,22 +91,30 @@ int run_scene(Time& clock, const fvMesh& mesh)
                 advance_momentum(scene, fields, geometry());
             }
             check_fields(scene, fields, time_step, step);
+            outcome.record(step, ledgers, rates, state);
+            const bool interrupted = stop_requested();
+            const bool window_is_left =
+                clock.value() < scene.end_time - almost && window.is_left(fields, clock.value());
+            if (interrupted || window_is_left || clock.value() >= target - almost) checkpoint(window_is_left);
+            if (interrupted) return 130;
+            if (window_is_left) return 3;
         }
         catch (const Diverged& trouble) {
             outcome.finish("stopped", trouble.what(), ledgers, time_step, state);
             return 1;
         }
         catch (const Foam::error& trouble) {
-            if (Pstream::parRun()) throw; // perhaps on one rank only: the others wait in vain
-            outcome.finish("stopped", "OpenFOAM reports: " + trouble.message(), ledgers, time_step, state);
-            return 1;
+            std::ostringstream diagnosis;
+            diagnosis << "OpenFOAM reports at t = " << clock.value() << " s: " << trouble.message();
+            if (!Pstream::parRun()) {
+                outcome.finish("stopped", diagnosis.str(), ledgers, time_step, state);
+                return 1;
+            }
+            // perhaps on this rank only: the others wait in vain, and MPI has to end them
+            diagnosis << " (rank " << Pstream::myProcNo() << ')';
+            outcome.finish_alone("stopped", diagnosis.str(), time_step, state);
+            UPstream::abort();
         }
-        outcome.record(step, ledgers, rates, state);
-        const bool interrupted = stop_requested();
-        const bool window_is_left = clock.value() < scene.end_time - almost && window.is_left(fields, clock.value());
-        if (interrupted || window_is_left || clock.value() >= target - almost) checkpoint(window_is_left);
-        if (interrupted) return 130;
-        if (window_is_left) return 3;
     }
     outcome.finish("completed", "", ledgers, time_step, state);
     return 0;

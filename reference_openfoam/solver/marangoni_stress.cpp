@@ -9,10 +9,7 @@ namespace
 tmp<volVectorField> heavy_side_gradient(const Fields& fields)
 {
     const fvMesh& mesh = fields.mesh;
-    const volScalarField step(map_field(fields.fraction, "smooth_step", dimless, [](scalar share) {
-        const scalar bounded = min(max(share, scalar(0)), scalar(1));
-        return sqr(bounded) * (3 - 2 * bounded);
-    }));
+    const volScalarField step(smooth_step(fields));
     const volScalarField& density = fields.flow->density;
     tmp<volVectorField> result(new volVectorField(
         IOobject("heavy_side_gradient", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false),

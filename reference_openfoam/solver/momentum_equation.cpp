@@ -19,13 +19,28 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
         dimensionedScalar(dimForce / dimVolume, Zero)));
     force.ref().setOriented(); // it is a force along each face's normal, also where nothing adds to it
     if (scene.physics.surface_tension || scene.physics.recoil) {
-        const surfaceScalarField interface_gradient(weighted_interface_gradient(scene, fields));
+        const surfaceScalarField interface_gradient(interface_step_gradient(fields));
         if (scene.physics.surface_tension)
             add_capillary_force(force.ref(), interface_gradient, scene, fields, geometry);
         if (scene.physics.recoil) add_recoil_pressure(force.ref(), interface_gradient, scene, fields);
     }
     if (scene.physics.gravity) force.ref() -= fields.flow->gravity_potential_faces * fvc::snGrad(fields.flow->density);
     return force;
+}
+
+/// Rate of change of the momentum that each face's own flux of the last step has beyond the mean of its cells' momenta
+/// [kg/s²]: with it the flux keeps its inertia, as on a staggered mesh.
+tmp<surfaceScalarField> own_history(const FlowFields& flow, const volScalarField& A)
+{
+    const fvMesh& mesh = A.mesh();
+    const volScalarField& density = flow.density.oldTime();
+    tmp<surfaceScalarField> history(
+        (fvc::interpolate(density) * flow.flux.oldTime() - fvc::flux(density * flow.velocity.oldTime())) /
+        mesh.time().deltaT());
+    surfaceScalarField::Boundary& at_boundary = history.ref().boundaryFieldRef();
+    forAll (at_boundary, patch)
+        if (!at_boundary[patch].coupled()) at_boundary[patch] = 0;
+    return history;
 }
 } // namespace
 
@@ -53,16 +68,17 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
     if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, geometry);
 
     const surfaceScalarField forces(face_forces(scene, fields, geometry));
-    const volScalarField rAU("rAU", 1.0 / momentum.A());
-    const surfaceScalarField rAUf("rAUf", fvc::interpolate(rAU));
+    const volScalarField A("A", momentum.A());
+    const surfaceScalarField rAUf("rAUf", 1 / fvc::interpolate(A));
+    const surfaceScalarField inertia(own_history(flow, A));
     const label correctors = scene.numerics.get<label>("pressure_correctors");
     if (scene.numerics.get<bool>("momentum_predictor"))
-        solve(momentum == fvc::reconstruct((forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
+        solve(momentum == A * fvc::reconstruct(rAUf * (forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
 
     for (label corrector = 1; corrector <= correctors; ++corrector) {
-        const volVectorField HbyA(constrainHbyA(rAU * momentum.H(), U, p_rgh));
-        surfaceScalarField predicted_flux("predicted_flux", fvc::flux(HbyA) + fvc::interpolate(flow.density * rAU) *
-                                                                                  fvc::ddtCorr(U, phi));
+        const volVectorField H(momentum.H());
+        const volVectorField HbyA(constrainHbyA(H / A, U, p_rgh));
+        surfaceScalarField predicted_flux("predicted_flux", rAUf * (fvc::flux(A * HbyA) + inertia));
         adjustPhi(predicted_flux, U, p_rgh);
         const surfaceScalarField force_flux(forces * rAUf * mesh.magSf());
         predicted_flux += force_flux;
@@ -73,7 +89,7 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         const scalar residual = pressure.solve(mesh.solver(p_rgh.select(corrector == correctors))).initialResidual();
 
         phi = predicted_flux - pressure.flux();
-        U = HbyA + rAU * fvc::reconstruct((force_flux - pressure.flux()) / rAUf);
+        U = HbyA + fvc::reconstruct(force_flux - pressure.flux());
         U.correctBoundaryConditions();
         if (!std::isfinite(residual)) break; // the guards say where
     }

@@ -5,6 +5,14 @@
 ///
 /// F_faces: capillary force, recoil. F_cells: Marangoni, and ρg along periodic axes, where g·x cannot be periodic. K:
 /// mushy drag, implicit. Each is there only if the scene names it.
+///
+/// A face has the mass and the momentum of half of each of its cells: 1/A on faces is one over the mean of A, A ≈ ρ/Δt
+/// + K being the diagonal of the equation, and the predicted velocity there is the mean of A u over the mean of A. A
+/// face between liquid and gas has then half the liquid's inertia, as the half cell of liquid below it has, where the
+/// mean of 1/ρ would have the surface's pressure act at the centre of that cell, half a cell too deep (Popinet 2009 has
+/// densities on faces so). Cells are accelerated by the mean of their faces' accelerations, not of their forces: the
+/// force on a face beside the liquid, shared out to the gas, would throw the gas about by the ratio of the densities.
+/// Fluxes keep their own inertia from step to step, as on a staggered mesh.
 #pragma once
 
 #include "interface_geometry.hpp"

@@ -95,6 +95,7 @@ void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rat
     Pstream::scatter(due); // the first rank's clock decides, for the sums below need all ranks
     if (!due) return;
     last_progress_ = now;
+    collect(ledgers, state);
     const std::string summary = ledgers.summary();
     if (!Pstream::master()) return;
     char text[200];
@@ -104,19 +105,39 @@ void Outcome::record(scalar step, const Ledgers& ledgers, const EnergyRates& rat
               << "t = " << time << " s, step " << state.steps << " of " << step << " s" << summary << std::endl;
 }
 
-void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,
-                     const TimeStep& time_step, const RunState& state) const
+void Outcome::collect(const Ledgers& ledgers, const RunState& state)
 {
-    const std::string ledger_text = ledgers.json();
-    const label cells = returnReduce(fields_.mesh.nCells(), sumOp<label>());
-    const scalar cpu = state.cpu_seconds + cpu_seconds();
-    if (!Pstream::master()) return;
-    std::ofstream file(folder_ / "outcome.json.part");
+    sums_.ledgers = ledgers.json();
+    sums_.cells = returnReduce(fields_.mesh.nCells(), sumOp<label>());
+    sums_.cpu_seconds = state.cpu_seconds + cpu_seconds();
+}
+
+void Outcome::finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,
+                     const TimeStep& time_step, const RunState& state)
+{
+    collect(ledgers, state);
+    if (Pstream::master()) write(status, diagnosis, time_step, state);
+}
+
+void Outcome::finish_alone(const std::string& status, const std::string& diagnosis, const TimeStep& time_step,
+                           const RunState& state) const
+{
+    write(status, diagnosis, time_step, state);
+}
+
+void Outcome::write(const std::string& status, const std::string& diagnosis, const TimeStep& time_step,
+                    const RunState& state) const
+{
+    // ranks that fail at once write one each; the last to be renamed stays
+    const fileName part(folder_ / "outcome.json.part" + std::to_string(Pstream::myProcNo()));
+    const scalar cpu = sums_.cpu_seconds;
+    std::ofstream file(part);
     file << "{\"status\": \"" << status << "\", \"diagnosis\": \"" << escaped(diagnosis)
-         << "\",\n \"time\": " << fields_.mesh.time().value() << ",\n \"ledgers\": " << ledger_text
+         << "\",\n \"time\": " << fields_.mesh.time().value() << ",\n \"ledgers\": " << sums_.ledgers
          << ",\n \"cost\": {\"wall_s\": " << state.wall_seconds + wall_seconds() << ", \"cpu_s\": " << cpu
-         << ", \"threads\": " << Pstream::nProcs() << ", \"steps\": " << state.steps << ", \"elements\": " << cells
-         << ", \"updates_per_core_s\": " << scalar(cells) * state.steps / max(cpu, SMALL)
+         << ", \"threads\": " << Pstream::nProcs() << ", \"steps\": " << state.steps
+         << ", \"elements\": " << sums_.cells
+         << ", \"updates_per_core_s\": " << scalar(sums_.cells) * state.steps / max(cpu, SMALL)
          << ", \"peak_bytes\": " << static_cast<long>(peak_bytes()) << ", \"time_step_binding\": {";
     const char* separator = "";
     for (const auto& entry : time_step.binding()) {
@@ -125,6 +146,6 @@ void Outcome::finish(const std::string& status, const std::string& diagnosis, co
     }
     file << "}},\n \"reference_version\": \"OpenFOAM " << OPENFOAM << "\"}\n";
     file.close();
-    mv(folder_ / "outcome.json.part", folder_ / "outcome.json");
+    mv(part, folder_ / "outcome.json");
 }
 } // namespace cupel

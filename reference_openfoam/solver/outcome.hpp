@@ -23,9 +23,25 @@ public:
 
     /// Writes outcome.json beside its final name, then renames it.
     void finish(const std::string& status, const std::string& diagnosis, const Ledgers& ledgers,
-                const TimeStep& time_step, const RunState& state) const;
+                const TimeStep& time_step, const RunState& state);
+
+    /// The same on one rank whose others may be waiting for it in vain: with the ledgers and the processor time that
+    /// all ranks last added up, a second ago or so.
+    void finish_alone(const std::string& status, const std::string& diagnosis, const TimeStep& time_step,
+                      const RunState& state) const;
 
 private:
+    /// What only all ranks together know: collected on each of them.
+    struct Sums
+    {
+        std::string ledgers;
+        scalar cpu_seconds = 0;
+        label cells = 0;
+    };
+
+    void collect(const Ledgers& ledgers, const RunState& state);
+    void write(const std::string& status, const std::string& diagnosis, const TimeStep& time_step,
+               const RunState& state) const;
     void write_row(scalar step, const Ledgers& ledgers, const EnergyRates& rates);
 
     const Scene& scene_;
@@ -33,5 +49,6 @@ private:
     const fileName folder_;
     std::ofstream history_;
     scalar last_progress_, start_seconds_;
+    Sums sums_;
 };
 } // namespace cupel

@@ -26,7 +26,9 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     : scene_(scene), particles_(*scene.particles), parameters_(parameters),
       kernel_(parameters.smoothing_length, scene.dimensions), mobility_{mobility},
       gravity_{scene.definition.gravity[0], scene.definition.gravity[1], scene.definition.gravity[2]},
-      force_(particles_.add_vector({"force", "N"})), acceleration_(particles_.add_vector({"acceleration", "m/s2"})),
+      force_(particles_.add_vector({"force", "N"})), pressure_force_(particles_.add_vector({"pressure_force", "N"})),
+      viscous_force_(particles_.add_vector({"viscous_force", "N"})),
+      acceleration_(particles_.add_vector({"acceleration", "m/s2"})), excess_pressure_(&particles_.pressure),
       tension_(surface_tension_law(scene.materials.front())),
       with_tension_(scene.definition.requires_physics("surface_tension")),
       with_marangoni_(scene.definition.requires_physics("marangoni")),
@@ -46,10 +48,18 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
                             metal.vaporization_heat.value(), metal.molar_mass.value()};
     }
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
+    const Numerics& numerics = scene.definition.numerics;
+    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
+        numerics.artificial_stress > 0.0)
+        artificial_force_ = &particles_.add_vector({"artificial_force", "N"});
     if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
+        // The contact angle is a curvature of the size of 1/Δx at the contact line, which takes a force in the band.
+        band_bears_load_ = scene.two_phase || scene.definition.requires_physics("wetting");
+    }
+    if (band_bears_load_) {
         mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
         load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
     }
@@ -60,9 +70,9 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallPressure Flow::wall_pressure(bool walls_may_pull)
+WallPressure Flow::wall_pressure(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
 {
-    return {mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind, particles_.pressure};
+    return {mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind, carried_load, pressure};
 }
 
 WallVelocity Flow::wall_velocity()
@@ -76,11 +86,9 @@ WallVelocity Flow::wall_velocity()
             particles_.velocity};
 }
 
-bool Flow::has_remedies() const
+void Flow::start_artificial_force(const Neighbourhood& neighbourhood)
 {
-    const Numerics& numerics = scene_.definition.numerics;
-    return numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
-           numerics.artificial_stress > 0.0;
+    if (artificial_force_) neighbourhood.for_each_moving([&](Index i) { artificial_force_->set(i, {}); });
 }
 
 ArtificialViscosity Flow::artificial_viscosity()
@@ -94,7 +102,7 @@ ArtificialViscosity Flow::artificial_viscosity()
             particles_.mass,
             particles_.density,
             particles_.velocity,
-            force_};
+            *artificial_force_};
 }
 
 ArtificialStress Flow::artificial_stress()
@@ -104,8 +112,53 @@ ArtificialStress Flow::artificial_stress()
             kernel_(scene_.spacing).value,
             particles_.mass,
             particles_.density,
-            particles_.pressure,
-            force_};
+            *excess_pressure_,
+            *artificial_force_};
+}
+
+SurfaceTemperature Flow::surface_temperature()
+{
+    return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
+}
+
+void Flow::add_up_forces(const Neighbourhood& neighbourhood)
+{
+    neighbourhood.for_each_moving([&](Index i) {
+        Vector force = pressure_force_[i] + viscous_force_[i];
+        if (artificial_force_) force += (*artificial_force_)[i];
+        if (shifting_force_) force += (*shifting_force_)[i];
+        force_.set(i, force);
+    });
+}
+
+MechanicalWork Flow::work(Index i, const Vector& mean_velocity, double time_step) const
+{
+    const Vector path = time_step * mean_velocity;
+    MechanicalWork work;
+    work.pressure = dot(pressure_force_[i], path);
+    work.viscosity = dot(viscous_force_[i], path);
+    work.gravity = particles_.mass[i] * dot(gravity_, path);
+    if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
+    if (shifting_force_) work.shifting = dot((*shifting_force_)[i], path);
+    work.surface = particles_.mass[i] * dot(acceleration_[i], path) - work.pressure - work.viscosity - work.gravity -
+                   work.artificial - work.shifting;
+    return work;
+}
+
+double Flow::elastic_energy(Index i) const
+{
+    const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
+    return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest);
+}
+
+double Flow::mechanical_energy(const Neighbourhood& neighbourhood) const
+{
+    const auto& moving = neighbourhood.moving_particles();
+    return ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+        const Index i = moving[static_cast<std::size_t>(m)];
+        const Vector v = particles_.velocity[i];
+        return particles_.mass[i] * (0.5 * dot(v, v) + elastic_energy(i));
+    });
 }
 
 void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
@@ -141,8 +194,11 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                            temperature_, *unresolved_, force_});
 }
 
-void Flow::find_load(const Neighbourhood& neighbourhood)
+void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_known)
 {
+    if (!load_) return;
+    if (mean_temperature_ && !temperature_is_known)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), surface_temperature());
     const SurfaceFields& surface = surface_->fields();
     neighbourhood.for_each_moving([&](Index i) {
         double load = 0.0;
@@ -154,24 +210,13 @@ void Flow::find_load(const Neighbourhood& neighbourhood)
         }
         (*load_)[i] = load;
     });
+    if (!band_bears_load_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
 
-SurfaceTemperature Flow::surface_temperature()
-{
-    return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
-}
-
-void Flow::find_surface_temperature(const Neighbourhood& neighbourhood)
-{
-    if (mean_temperature_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), surface_temperature());
-}
-
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
-    if (load_) find_load(neighbourhood);
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         if (surface_ && surface_->fields().delta[i] > 0.0) {
@@ -179,7 +224,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (load_)
+            if (band_bears_load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
             if (with_marangoni_)

@@ -5,9 +5,9 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-/// Density diffusion (Antuono, Colagrossi, Marrone 2012, the δ-SPH scheme), added to what continuity gave:
+/// Density diffusion (Antuono, Colagrossi, Marrone 2012, the δ-SPH scheme), beside what continuity gives:
 ///
-///   dρ_i/dt += δ h c₀ Σ_j 2 V_j ψ_ij·∇W_ij                                                       [kg/(m³ s)]
+///   dρ_i/dt  = δ h c₀ Σ_j 2 V_j ψ_ij·∇W_ij                                                       [kg/(m³ s)]
 ///   ψ_ij     = [(ρ_j − ρ_i)/r − ½(⟨∇ρ⟩_i + ⟨∇ρ⟩_j)·e_ji] e_ji,   e_ji = (x_j − x_i)/r
 ///
 /// Between liquid particles; walls and solids take no part. ⟨∇ρ⟩ may be that of the places before the last drift: the
@@ -18,7 +18,7 @@ struct DensityDiffusion
     const ScalarField& density;
     const VectorField& density_gradient;
     double diffusivity;        ///< δ h c₀, m²/s
-    ScalarField& density_rate; ///< added to
+    ScalarField& density_rate;
 
     template <class Scalar> struct DensityGradient
     {
@@ -45,7 +45,7 @@ struct DensityDiffusion
     {
         for (int lane = 0; lane < cluster.count; ++lane)
             if (mobility.weight[cluster.first + lane] != 0.0)
-                density_rate[cluster.first + lane] += 2.0 * diffusivity * sum.diffusion[lane];
+                density_rate[cluster.first + lane] = 2.0 * diffusivity * sum.diffusion[lane];
     }
 };
 

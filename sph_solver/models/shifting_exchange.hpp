@@ -18,7 +18,7 @@ inline double exchange_balance(double mass, double lattice_mass)
 /// Sun, Colagrossi, Marrone, Zhang 2019 and Antuono et al. 2021). With u_ij = V_j δu_j·∇W_ij and w_ij = V_j δu_i·∇W_ij:
 ///
 ///   dm_i/dt      = V_i Σ_j (ρ_j u_ij + ρ_i w_ij)                           [kg/s]
-///   dρ_i/dt     += Σ_j [ρ_j u_ij + ρ_i w_ij − ρ_i (u_ij − w_ij)]           [kg/(m³ s)]
+///   dρ_i/dt      = Σ_j [ρ_j u_ij + ρ_i w_ij − ρ_i (u_ij − w_ij)]           [kg/(m³ s)]
 ///   m_i dv_i/dt += V_i Σ_j ρ_j u_ij (v_j − v_i)                            [N]
 ///   d(m_i h_i)/dt = V_i Σ_j (h_j ρ_j u_ij + h_i ρ_i w_ij)                  [W]
 ///
@@ -34,7 +34,7 @@ template <bool with_enthalpy> struct ShiftingExchange
     const VectorField& shift;
     const ScalarField& balance;  ///< b, 1: falls to 0 as a particle's mass leaves its bounds
     const ScalarField* enthalpy; ///< h, J/kg; only asked where the exchange carries it
-    ScalarField& density_rate;   ///< added to
+    ScalarField& density_rate;   ///< kg/(m³ s)
     ScalarField& mass_rate;      ///< kg/s
     VectorField& momentum_rate;  ///< N
     ScalarField* energy_rate;    ///< W
@@ -81,7 +81,7 @@ template <bool with_enthalpy> struct ShiftingExchange
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            density_rate[i] += sum.density[lane];
+            density_rate[i] = sum.density[lane];
             mass_rate[i] = volume[i] * sum.mass[lane];
             if constexpr (with_enthalpy) (*energy_rate)[i] = volume[i] * sum.energy[lane];
             momentum_rate.set(i, volume[i] * Vector{sum.momentum.x[lane], sum.momentum.y[lane], sum.momentum.z[lane]});

@@ -13,9 +13,10 @@ namespace cupel::inline CUPEL_ENGINE
 ///
 ///   p_w = [Σ p_f W + (g − a_w) · Σ ρ_f r_wf W] / Σ W      [Pa]
 ///
-/// Without a gas on the other side a wall does not pull: then p_w is kept at or above zero. Solid metal is of one piece
-/// with its melt and may pull: else what melts would be thrown off by every positive pressure and held by no negative
-/// one.
+/// Without a gas on the other side a wall does not pull: then p_w is kept at or above zero. Where the load on a free
+/// surface is carried into the liquid (surface_pressure.hpp), a wall has its mean λ_w = Σ λ_f W / Σ W, p is what is
+/// left of pressure without it, and it is p_w + λ_w that is kept at or above zero. Solid metal is of one piece with its
+/// melt and may pull: else what melts would be thrown off by every positive pressure and held by no negative one.
 struct WallPressure
 {
     Mobility mobility;
@@ -23,25 +24,36 @@ struct WallPressure
     Vector gravity;      ///< m/s²
     bool walls_may_pull; ///< two phases fill the space: a wall may take negative pressure
     const std::vector<Kind>& kind;
+    ScalarField* carried_load; ///< λ, Pa; null where none is carried
     ScalarField& pressure;
+
+    template <class Scalar> struct Load
+    {
+        Scalar load;
+    };
 
     struct Near
     {};
-    using Far = Of<Real, quantity::Liquid, quantity::Pressure, quantity::Density>;
+    using Far = Of<Real, quantity::Liquid, quantity::Pressure, quantity::Density, Load>;
     struct Sum
     {
-        Lanes weight{}, pressure{};
+        Lanes weight{}, pressure{}, load{};
         VectorLanes head{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
     Near near(Index) const { return {}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(pressure[j]), real(density[j])}; }
+    Far far(Index j) const
+    {
+        return {real(mobility.weight[j]), real(pressure[j]), real(density[j]),
+                carried_load ? real((*carried_load)[j]) : Real(0)};
+    }
     bool ignores(const Far& j) const { return j.liquid == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.weight += pair.kernel;
         sum.pressure += j.pressure * pair.kernel;
+        sum.load += j.load * pair.kernel;
         sum.head += (j.density * pair.kernel) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
@@ -53,7 +65,9 @@ struct WallPressure
             const Vector head{sum.head.x[lane], sum.head.y[lane], sum.head.z[lane]};
             const double extrapolated = weight > 0.0 ? (1.0 / weight) * (sum.pressure[lane] + dot(gravity, head)) : 0.0;
             const bool may_pull = walls_may_pull || kind[static_cast<std::size_t>(i)] == Kind::solid;
-            pressure[i] = may_pull ? extrapolated : std::max(0.0, extrapolated);
+            const double load = weight > 0.0 ? sum.load[lane] / weight : 0.0;
+            if (carried_load) (*carried_load)[i] = load;
+            pressure[i] = may_pull ? extrapolated : std::max(-load, extrapolated);
         }
     }
 };

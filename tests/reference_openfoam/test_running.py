@@ -254,3 +254,40 @@ def test_a_frozen_temperature_drives_the_same_flow_on_two_ranks(tmp_path):
     speeds = [field["velocity"][field["fraction"] > 0.5] for field in fields]
     assert np.abs(speeds[0]).max() > 1e-3
     assert np.abs(speeds[0] - speeds[1]).max() < 1e-4*np.abs(speeds[0]).max()
+
+
+def interrupted_after_the_start(data, folder, *options):
+    """Folder of the mesh of a run that was interrupted soon after its first snapshot; it can be resumed."""
+    process = start(data, folder, *options)
+    while not (folder/"result"/"fields"/"fields_000000.vtu").exists() and process.poll() is None:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    return folder/"result"/"checkpoints"/"mesh_0000"
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_an_error_of_openfoam_on_all_ranks_is_stopped_with_what_it_says(threads, tmp_path):
+    data = small_cases.grain_on_plate(numerics={"openfoam": {"mesh": "static"}})
+    mesh = interrupted_after_the_start(data, tmp_path, "--threads", str(threads))
+    settings = mesh/"system"/"fvSolution"
+    settings.write_text(settings.read_text().replace("PBiCGStab", "NoSuchSolver"))
+    record = stopped(small_cases.solve(data, tmp_path, "--resume"), tmp_path)
+    assert "OpenFOAM reports at t = " in record["diagnosis"] and "NoSuchSolver" in record["diagnosis"]
+    assert record["cost"]["threads"] == threads
+
+
+def test_an_error_of_openfoam_on_one_rank_only_is_stopped_with_its_rank_and_ledgers(tmp_path):
+    # a file stands where the second rank wants to make the folder of its next snapshot: the first rank waits for it in vain
+    data = small_cases.grain_on_plate(numerics={"openfoam": {"mesh": "static"}})
+    mesh = interrupted_after_the_start(data, tmp_path, "--threads", "2")
+    reached = max(float(path.name) for path in mesh.glob("processor1/*") if path.name[0].isdigit())
+    for moment in ("2e-05", "4e-05", "6e-05"):
+        if float(moment) > reached:
+            (mesh/"processor1"/moment).write_text("not a folder")
+    began = time.monotonic()
+    record = stopped(small_cases.solve(data, tmp_path, "--resume"), tmp_path)
+    assert time.monotonic() - began < 60
+    assert "OpenFOAM reports at t = " in record["diagnosis"] and "(rank 1)" in record["diagnosis"]
+    assert record["cost"]["threads"] == 2 and record["cost"]["elements"] == 16*16*13
+    assert record["ledgers"]["energy"]["closure"] < 1e-6

@@ -11,7 +11,19 @@ its own height:
     surface_speed   velocity at eta = 1 in the direction that Marangoni stress drives, from a parabola fitted to eta > 1/2
     zero_crossing   the height eta where the layer-averaged velocity turns round (2/3 in the exact flow)
 
-H is the height of the liquid body in the case, not of the liquid as it deforms.
+H is the depth that the liquid has at each place x, not that of the body in the case: the stress piles the liquid up at one end, by a
+slope of 3 tau/(2 rho g H), 0.024 in the canonical layer, and a flow that is exact for its depth is then 3 eta^2 dH/H of the surface speed
+away from one for a level surface (1.9 % over its middle third). The surface is taken as straight over the middle third,
+H(x) = a + b (x - x_m), with a and b from the volume and the first moment of the liquid in it, both with the weight
+w = cos^2(pi (x - x_m)/l), l the length of the third: it falls to zero at the third's ends, so that it does not matter between which
+particles or cells they lie.
+
+    a = 2 sum(V f w)/(B l),   b = sum(V f w (x - x_m)) / [B l^3 (1/24 - 1/(4 pi^2))],   B the breadth
+
+Exact for lattices and cells; particles jittered at random by 0.2 spacings, ten to a depth, are 0.7 % of the depth off in places, which makes
+a profile error of 0.5 %.
+
+The surface speed is compared with tau/4 mu times the depth in the case, which is the depth at mid-length as long as none is lost.
 """
 
 from __future__ import annotations
@@ -21,6 +33,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..exact import return_flow as exact
+from .elements import Elements
+from .elements import Elements
 from .registry import MeasureError, Reading, measure_of_snapshot
 from .snapshot import Snapshot, look_up, primary_bodies, primary_material
 
@@ -70,12 +84,25 @@ def _gradient(case: dict) -> float:
 
 @dataclass(frozen=True)
 class Profile:
-    """Elements of the middle third: relative height, velocity along x (m/s), weight (their volumes); each (n)."""
+    """Elements of the middle third: relative height, depth there (m), velocity along x (m/s), weight (their volumes); each (n)."""
 
     eta: np.ndarray
+    depth: np.ndarray
     velocity: np.ndarray
     weight: np.ndarray
     layer: Layer
+
+
+def local_depth(elements: Elements, case: dict, layer: Layer) -> tuple[float, float]:
+    """Depth of the liquid at mid-length (m) and its slope along x, of a straight surface over the middle third."""
+    length = (layer.end - layer.begin) / 3.0
+    offset = elements.position[:, 0] - 0.5 * (layer.begin + layer.end)
+    within = np.abs(offset) < 0.5 * length
+    content = elements.content(case["dimensions"], case["spacing"]) * elements.fraction
+    moment = (content * np.cos(np.pi * offset / length)**2)[within]
+    breadth = 1.0 if case["dimensions"] == 2 else case["domain"]["upper"][1] - case["domain"]["lower"][1]
+    slope = (moment * offset[within]).sum() / (breadth * length**3 * (1.0 / 24.0 - 0.25 / np.pi**2))
+    return float(2.0 * moment.sum() / (breadth * length)), float(slope)
 
 
 def middle_profile(snapshot: Snapshot) -> Profile:
@@ -86,7 +113,9 @@ def middle_profile(snapshot: Snapshot) -> Profile:
     chosen = (elements.fraction > 0.5) & (x >= layer.begin + third) & (x <= layer.end - third)
     if not chosen.any():
         raise MeasureError(f"{elements.source}: no liquid in the middle third of the layer")
-    return Profile((z[chosen] - layer.bottom) / layer.depth, elements.velocity[chosen, 0],
+    depth, slope = local_depth(elements, snapshot.case, layer)
+    depths = depth + slope * (x[chosen] - 0.5 * (layer.begin + layer.end))
+    return Profile((z[chosen] - layer.bottom) / depths, depths, elements.velocity[chosen, 0],
                    (elements.volume * elements.fraction)[chosen], layer)
 
 
@@ -94,7 +123,7 @@ def middle_profile(snapshot: Snapshot) -> Profile:
 def profile_error(snapshot: Snapshot) -> Reading:
     profile = snapshot.once(middle_profile)
     layer = profile.layer
-    expected = exact.velocity(profile.eta, layer.stress, layer.depth, layer.viscosity)
+    expected = exact.velocity(profile.eta, layer.stress, profile.depth, layer.viscosity)
     square = np.average((profile.velocity - expected)**2, weights=profile.weight)
     flux = np.average(profile.velocity, weights=profile.weight) / abs(layer.surface_velocity)
     return Reading(float(np.sqrt(square) / abs(layer.surface_velocity)), beside={"net_flux_share": float(flux)})
@@ -119,7 +148,7 @@ def _of_mean_profile(readings: list[Reading]) -> Reading:
 def mean_profile_error(snapshot: Snapshot) -> Reading:
     profile = snapshot.once(middle_profile)
     layer = profile.layer
-    expected = exact.velocity(profile.eta, layer.stress, layer.depth, layer.viscosity)
+    expected = exact.velocity(profile.eta, layer.stress, profile.depth, layer.viscosity)
     deviation = (profile.velocity - expected) / abs(layer.surface_velocity)
     place, count = _layers(profile, snapshot.case["spacing"])
     kept = (np.bincount(place, profile.weight, count), np.bincount(place, profile.weight * deviation, count))
