@@ -4,12 +4,9 @@
 
 #include "integrators/free_surface_flow.hpp"
 #include "integrators/two_phase_flow.hpp"
-#include "models/artificial_stress.hpp"
-#include "models/artificial_viscosity.hpp"
 #include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
 #include "models/surface_load.hpp"
-#include "models/surface_temperature.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -55,7 +52,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
         numerics.artificial_stress > 0.0)
         artificial_force_ = &particles_.add_vector({"artificial_force", "N"});
-    if (temperature_ && (with_tension_ || with_recoil_))
+    if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
@@ -73,37 +70,59 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
+WallPressure Flow::wall_pressure(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
+{
+    return {mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind, carried_load, pressure};
+}
+
+WallVelocity Flow::wall_velocity()
 {
     const bool walls = particles_.has("wall_normal");
     return {mobility_,
-            particles_.density,
-            gravity_,
-            walls_may_pull,
-            particles_.kind,
             walls ? &particles_.vector("wall_normal") : nullptr,
             walls ? &particles_.scalar("wall_free_slip") : nullptr,
             walls ? &particles_.scalar("wall_depth") : nullptr,
             particles_.has("wall_velocity") ? &particles_.vector("wall_velocity") : nullptr,
-            carried_load,
-            pressure,
             particles_.velocity};
+}
+
+void Flow::start_artificial_force(const Neighbourhood& neighbourhood)
+{
+    if (artificial_force_) neighbourhood.for_each_moving([&](Index i) { artificial_force_->set(i, {}); });
+}
+
+ArtificialViscosity Flow::artificial_viscosity()
+{
+    const Numerics& numerics = scene_.definition.numerics;
+    return {mobility_,
+            numerics.artificial_viscosity,
+            numerics.artificial_viscosity_beta,
+            parameters_.equation_of_state.sound_speed,
+            parameters_.smoothing_length,
+            particles_.mass,
+            particles_.density,
+            particles_.velocity,
+            *artificial_force_};
+}
+
+ArtificialStress Flow::artificial_stress()
+{
+    return {mobility_,
+            scene_.definition.numerics.artificial_stress,
+            kernel_(scene_.spacing).value,
+            particles_.mass,
+            particles_.density,
+            *excess_pressure_,
+            *artificial_force_};
+}
+
+SurfaceTemperature Flow::surface_temperature()
+{
+    return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
 }
 
 void Flow::add_up_forces(const Neighbourhood& neighbourhood)
 {
-    const Numerics& numerics = scene_.definition.numerics;
-    if (artificial_force_) neighbourhood.for_each_moving([&](Index i) { artificial_force_->set(i, {}); });
-    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      ArtificialViscosity{mobility_, numerics.artificial_viscosity, numerics.artificial_viscosity_beta,
-                                          parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
-                                          particles_.mass, particles_.density, particles_.velocity,
-                                          *artificial_force_});
-    if (numerics.artificial_stress > 0.0)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      ArtificialStress{mobility_, numerics.artificial_stress, kernel_(scene_.spacing).value,
-                                       particles_.mass, particles_.density, *excess_pressure_, *artificial_force_});
     neighbourhood.for_each_moving([&](Index i) {
         Vector force = pressure_force_[i] + viscous_force_[i];
         if (artificial_force_) force += (*artificial_force_)[i];
@@ -145,8 +164,8 @@ double Flow::mechanical_energy(const Neighbourhood& neighbourhood) const
 void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  GradientCorrection{mobility_, scene_.dimensions, particles_.volume, correction},
-                  ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+                  GradientCorrection{mobility_, scene_.dimensions, correction},
+                  ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
     for (const Index i : neighbourhood.moving_particles())
         temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
 }
@@ -155,7 +174,7 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
 {
     if (!unresolved_) return;
     const NeighbourList& list = neighbourhood.list();
-    std::vector<unsigned char> touched(neighbourhood.all().size(), 0);
+    std::vector<Index> unresolved;
     for (const Index c : neighbourhood.moving()) {
         const Cluster& cluster = list.cluster(c);
         bool any = false;
@@ -165,12 +184,9 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                 Cohesion::share_unresolved(surface_->fields().companions[i], lattice_companions(scene_.dimensions));
             any = any || (*unresolved_)[i] > 0.0;
         }
-        if (any)
-            list.for_each_neighbour(c, [&](Index j) { touched[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
+        if (any) unresolved.push_back(c);
     }
-    std::vector<Index> near;
-    for (const Index c : neighbourhood.moving())
-        if (touched[static_cast<std::size_t>(c)]) near.push_back(c);
+    const std::vector<Index> near = neighbourhood.moving_near(unresolved);
     if (near.empty()) return;
     const bool flat = scene_.dimensions == 2;
     for_each_pair(list, particles_, kernel_, near,
@@ -178,13 +194,11 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                            temperature_, *unresolved_, force_});
 }
 
-void Flow::find_load(const Neighbourhood& neighbourhood)
+void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_known)
 {
     if (!load_) return;
-    if (mean_temperature_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
-                                         surface_->fields().delta, *mean_temperature_});
+    if (mean_temperature_ && !temperature_is_known)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), surface_temperature());
     const SurfaceFields& surface = surface_->fields();
     neighbourhood.for_each_moving([&](Index i) {
         double load = 0.0;

@@ -8,8 +8,11 @@
 #include "integrators/parameters.hpp"
 #include "integrators/surface_tracker.hpp"
 #include "ledgers/mechanical_work.hpp"
+#include "models/artificial_stress.hpp"
+#include "models/artificial_viscosity.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
+#include "models/surface_temperature.hpp"
 #include "models/vapour_pressure.hpp"
 #include "models/wall_extrapolation.hpp"
 
@@ -52,16 +55,22 @@ protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
     /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
-    WallExtrapolation wall_extrapolation(bool walls_may_pull, ScalarField& pressure,
-                                         ScalarField* carried_load = nullptr);
-    /// force_ ← pressure and viscosity, the optional pair forces that the case switches on, and what shifting carries.
+    WallPressure wall_pressure(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load = nullptr);
+    WallVelocity wall_velocity();
+    /// The artificial pair forces of a case that switches one on, as terms that add to artificial_force_.
+    void start_artificial_force(const Neighbourhood& neighbourhood);
+    ArtificialViscosity artificial_viscosity();
+    ArtificialStress artificial_stress();
+    /// The temperature that surface forces are evaluated at, as a term.
+    SurfaceTemperature surface_temperature();
+    /// force_ ← pressure and viscosity, the artificial forces, and what shifting carries.
     void add_up_forces(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
     void add_cohesion(const Neighbourhood& neighbourhood);
     /// What presses on the surface.
-    void find_load(const Neighbourhood& neighbourhood);
+    void find_load(const Neighbourhood& neighbourhood, bool temperature_is_known = false);
     /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 

@@ -6,9 +6,9 @@
 
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
-#include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/shifting_exchange.hpp"
 #include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
 
@@ -77,64 +77,52 @@ void FreeSurfaceFlow::reset(Index place)
     Flow::reset(place);
     velocity_gradient_.reset(place);
     (*excess_pressure_)[place] = 0.0;
+    if (density_gradient_) density_gradient_->set(place, {});
     if (!shift_) return;
     shift_->set(place, {});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
     (*balance_)[place] = 1.0;
 }
 
-/// Rates of density, and of what shifting by the last drift carried between particles: mass, momentum, enthalpy.
+/// Everything that needs nothing but places and the state before: the matrices that correct gradients, rates of
+/// density, the gradient of velocity, the colour gradient, and what shifting by the last drift carried between
+/// particles. Density diffuses by the gradient of density that the last force pass has found for the same densities,
+/// before the drift.
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
-    const auto& clusters = neighbourhood.moving();
-    const VelocityGradient gradient{mobility_, particles_.volume, particles_.velocity, correction_, velocity_gradient_};
+    const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
+    const VelocityGradient gradient{mobility_, particles_.velocity, correction_, velocity_gradient_};
     // It reads what the gradient has just stored for the same cluster.
-    const Continuity continuity{mobility_,          particles_.volume,
-                                particles_.density, particles_.velocity,
-                                velocity_gradient_, carried_load_ ? &surface_->fields().delta : nullptr,
-                                density_rate_,      replaced_rate_};
-    const auto sum = [&](const auto&... exchanges) {
-        if (!density_gradient_)
-            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
-                                 exchanges...);
-        const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
-                                   parameters_.equation_of_state.sound_speed;
-        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
-                      DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
-                                       diffusivity, *diffusion_rate_},
-                      exchanges...);
+    const Continuity continuity{mobility_,
+                                particles_.density,
+                                particles_.velocity,
+                                velocity_gradient_,
+                                carried_load_ ? &surface_->fields().delta : nullptr,
+                                density_rate_,
+                                replaced_rate_};
+    const auto sum = [&](const auto&... others) {
+        const auto sum_all = [&](const auto&... diffusion) {
+            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction, gradient,
+                          continuity, diffusion..., others...);
+        };
+        if (!density_gradient_) return sum_all();
+        sum_all(DensityDiffusion{mobility_, particles_.density, *density_gradient_,
+                                 scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                                     parameters_.equation_of_state.sound_speed,
+                                 *diffusion_rate_});
     };
-    if (!shift_) return sum();
+    if (!surface_) return sum();
+    if (!shift_) return sum(surface_->colour_gradient());
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
-    const ShiftingExchange exchange{mobility_,       particles_.volume, particles_.density,      particles_.velocity,
-                                    *shift_,         *balance_,         *shifting_density_rate_, *mass_rate_,
-                                    *shifting_force_};
-    if (!enthalpy_) return sum(exchange);
-    sum(exchange, EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
-                                   *energy_rate_});
-}
-
-/// The sums that need nothing but places: the colour gradient, the matrices that correct gradients, where something
-/// needs them, and with the same pass the gradient of density.
-void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
-{
-    const auto sum = [&](const auto&... terms) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
+    const auto exchange = [&](auto with_enthalpy) {
+        return ShiftingExchange<with_enthalpy()>{
+            mobility_, particles_.volume,       particles_.density, particles_.velocity, *shift_,     *balance_,
+            enthalpy_, *shifting_density_rate_, *mass_rate_,        *shifting_force_,    energy_rate_};
     };
-    const auto sum_with_surface = [&](const auto&... terms) {
-        surface_ ? sum(terms..., surface_->colour_gradient()) : sum(terms...);
-    };
-    const GradientCorrection correction{mobility_, scene_.dimensions, particles_.volume, correction_};
-    if (density_gradient_) {
-        sum_with_surface(correction,
-                         ScalarGradient{mobility_, particles_.volume, particles_.density, *density_gradient_});
-        neighbourhood.for_each_moving(
-            [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
-    }
-    else
-        sum_with_surface(correction);
+    enthalpy_ ? sum(surface_->colour_gradient(), exchange(std::true_type{}))
+              : sum(surface_->colour_gradient(), exchange(std::false_type{}));
 }
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
@@ -180,8 +168,9 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, double time_step)
     return work;
 }
 
-/// Forces between particles, and in the same pass the shifting velocity of the next drift and the gradient that drives
-/// Marangoni flow: all of them need nothing but the state as it is now.
+/// Forces between particles, and in the same pass the shifting velocity of the next drift, the gradient of density by
+/// which that of the next step diffuses, and what Marangoni flow needs of temperature: all of them need nothing but the
+/// state as it is now.
 void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 {
     const FreeSurfaceMomentum momentum{mobility_,
@@ -192,15 +181,24 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
                                        pressure_force_,
                                        viscous_force_,
                                        wall_power_};
-    // The second adds to what the first has just stored for the same cluster.
+    // What follows momentum adds to what it has just stored for the same cluster.
     const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity,
                                    viscous_force_};
+    start_artificial_force(neighbourhood);
     const auto sum = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
+    const auto sum_with_remedies = [&](const auto&... others) {
+        artificial_force_ ? sum(others..., artificial_viscosity(), artificial_stress()) : sum(others...);
+    };
+    const auto sum_with_density = [&](const auto&... others) {
+        if (!density_gradient_) return sum_with_remedies(others...);
+        sum_with_remedies(others..., ScalarGradient{mobility_, particles_.density, *density_gradient_});
+    };
     const auto sum_with_gradient = [&](const auto&... others) {
-        if (!temperature_gradient_) return sum(others...);
-        sum(others..., ScalarGradient{mobility_, particles_.volume, *temperature_, *temperature_gradient_});
+        if (!temperature_gradient_) return sum_with_density(others...);
+        sum_with_density(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_},
+                         surface_temperature());
     };
     if (!shift_)
         sum_with_gradient();
@@ -208,13 +206,14 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
         const double h = parameters_.smoothing_length;
         sum_with_gradient(ShiftingVelocity{
             mobility_, scene_.definition.numerics.shifting, h, 0.1 * parameters_.equation_of_state.sound_speed,
-            kernel_(scene_.spacing).value, 0.05 / h, particles_.volume, velocity_gradient_, particles_.mass,
+            kernel_(scene_.spacing).value, 0.05 / h, velocity_gradient_, particles_.mass,
             rest_density_ * scene_.particle_volume(), surface_->fields().companions, surface_->fewest_companions(),
             &surface_->fields().colour_gradient, *shift_});
     }
-    if (!temperature_gradient_) return;
-    for (const Index i : neighbourhood.moving_particles())
-        temperature_gradient_->set(i, correction_[i] * (*temperature_gradient_)[i]);
+    neighbourhood.for_each_moving([&](Index i) {
+        for (VectorField* gradient : {temperature_gradient_, density_gradient_})
+            if (gradient) gradient->set(i, correction_[i] * (*gradient)[i]);
+    });
 }
 
 /// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
@@ -247,13 +246,11 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
     });
 }
 
-/// Walls and solids as the liquid before them sees them: their pressure, and from it their volume, their velocity and
-/// whatever else is summed with them.
-template <class... Others>
-void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others)
+/// Walls and solids as the liquid before them sees them: pressure, and from it density and volume.
+void FreeSurfaceFlow::extrapolate_pressure(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
-                  wall_extrapolation(false, *excess_pressure_, carried_load_), others...);
+                  wall_pressure(false, *excess_pressure_, carried_load_));
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
@@ -265,20 +262,24 @@ void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, c
     }
 }
 
+/// The same: how they move.
+void FreeSurfaceFlow::extrapolate_velocity(const Neighbourhood& neighbourhood)
+{
+    const auto sum = [&](const auto&... terms) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), terms...);
+    };
+    shift_ ? sum(wall_velocity(), WallShift{mobility_, *shift_}) : sum(wall_velocity());
+}
+
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    if (shift_)
-        extrapolate_to_walls(neighbourhood, WallShift{mobility_, *shift_});
-    else
-        extrapolate_to_walls(neighbourhood);
-    sum_over_places(neighbourhood);
-
+    extrapolate_velocity(neighbourhood);
     find_rates(neighbourhood);
     if (shift_) exchange_mass(neighbourhood, time_step);
     const auto& moving = neighbourhood.moving_particles();
     books_ += ordered_sum(static_cast<Index>(moving.size()),
                           [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], time_step); });
-    extrapolate_to_walls(neighbourhood);
+    extrapolate_pressure(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
@@ -287,7 +288,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
                         });
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
-    find_load(neighbourhood);
+    find_load(neighbourhood, temperature_gradient_ != nullptr);
     if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
     accelerate(neighbourhood);
 }

@@ -19,13 +19,13 @@ public:
 
 private:
     void start_hydrostatic();
-    void sum_over_places(const Neighbourhood& neighbourhood);
     void find_rates(const Neighbourhood& neighbourhood);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
     MechanicalWork compress(Index i, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
-    template <class... Others> void extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others);
+    void extrapolate_velocity(const Neighbourhood& neighbourhood);
+    void extrapolate_pressure(const Neighbourhood& neighbourhood);
 
     CorrectionMatrix correction_;
     VelocityGradientFields velocity_gradient_;

@@ -35,6 +35,18 @@ void Neighbourhood::rebuild(Particles& particles, const ScalarField& mobility)
     classify(particles, mobility);
 }
 
+std::vector<Index> Neighbourhood::moving_near(std::span<const Index> clusters) const
+{
+    std::vector<Index> found;
+    if (clusters.empty()) return found;
+    std::vector<unsigned char> near(all_.size(), 0);
+    for (const Index c : clusters)
+        list_.for_each_neighbour(c, [&](Index j) { near[static_cast<std::size_t>(list_.cluster_of(j))] = 1; });
+    for (const Index c : moving_)
+        if (near[static_cast<std::size_t>(c)]) found.push_back(c);
+    return found;
+}
+
 void Neighbourhood::forget_wanderers()
 {
     wandered_.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernels/neighbour_list.hpp"
@@ -31,6 +32,9 @@ public:
     const std::vector<Index>& standing() const { return standing_; }
     /// Places of the particles that move, in order.
     const std::vector<Index>& moving_particles() const { return moving_particles_; }
+
+    /// Those of the clusters with moving particles that are neighbours of the clusters given, themselves included.
+    std::vector<Index> moving_near(std::span<const Index> clusters) const;
 
     /// apply(place) for each particle that moves; by all threads where there are enough particles to share.
     template <class Apply> void for_each_moving(const Apply& apply) const

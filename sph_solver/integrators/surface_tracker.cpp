@@ -74,12 +74,7 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     if (walls.empty()) return;
     prescribe_wall_normals(neighbourhood, walls);
 
-    std::vector<unsigned char> touches(neighbourhood.all().size(), 0);
-    for (const Index c : walls)
-        list.for_each_neighbour(c, [&](Index j) { touches[static_cast<std::size_t>(list.cluster_of(j))] = 1; });
-    std::vector<Index> wetting;
-    for (const Index c : neighbourhood.moving())
-        if (touches[static_cast<std::size_t>(c)]) wetting.push_back(c);
+    const std::vector<Index> wetting = neighbourhood.moving_near(walls);
     for_each_pair(list, particles_, kernel_, wetting, colour_gradient());
     for (const Index c : wetting) {
         const Cluster& cluster = list.cluster(c);

@@ -21,7 +21,7 @@ public:
                    const ScalarField& mobility);
 
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
-    ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, particles_.volume, fields_}; }
+    ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, fields_}; }
     void find(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }

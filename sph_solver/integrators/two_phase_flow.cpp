@@ -72,7 +72,8 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
     });
     work.compression = time_step > 0.0 ? elastic() - before - work.density_diffusion : 0.0;
     books_ += work;
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true, particles_.pressure));
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_pressure(true, particles_.pressure),
+                  wall_velocity());
     const double lattice_volume = scene_.particle_volume();
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);
@@ -102,16 +103,21 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
                                     viscosity_,     particles_.velocity, parameters_.transport, pressure_force_,
                                     viscous_force_, imbalance_,          transport_velocity_};
     if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
-    if (!stress_gradient_) return sum(momentum);
+    start_artificial_force(neighbourhood);
+    // What follows momentum adds to what it has just stored for the same cluster.
+    const auto sum_forces = [&](const auto&... others) {
+        artificial_force_ ? sum(momentum, others..., artificial_viscosity(), artificial_stress())
+                          : sum(momentum, others...);
+    };
+    if (!stress_gradient_) return sum_forces();
     // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
-    if (!temperature_gradient_) sum(GradientCorrection{mobility_, scene_.dimensions, particles_.volume, *correction_});
-    sum(VelocityGradient{mobility_, particles_.volume, particles_.velocity, *correction_, *stress_gradient_});
+    if (!temperature_gradient_) sum(GradientCorrection{mobility_, scene_.dimensions, *correction_});
+    sum(VelocityGradient{mobility_, particles_.velocity, *correction_, *stress_gradient_});
     neighbourhood.for_each_moving([&](Index i) {
         for (VectorField* row : {&stress_gradient_->x, &stress_gradient_->y, &stress_gradient_->z})
             row->set(i, (viscosity_[i] - least_viscosity_) * (*row)[i]);
     });
-    // The second adds to what the first has just stored for the same cluster.
-    sum(momentum, ViscousTraction{mobility_, particles_.volume, *stress_gradient_, 1.0, viscous_force_});
+    sum_forces(ViscousTraction{mobility_, particles_.volume, *stress_gradient_, 1.0, viscous_force_});
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

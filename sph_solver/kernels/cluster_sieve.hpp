@@ -1,14 +1,8 @@
 #pragma once
 
-#include <bit>
-#include <numeric>
-#include <span>
-#include <vector>
-
 #include "kernels/neighbour_list.hpp"
 
-/// What a neighbour list is made with: a whole cluster of candidates against a limit at once, and runs from what is
-/// left.
+/// What a neighbour list is made with: a whole cluster of candidates against a limit at once.
 namespace cupel::inline CUPEL_ENGINE
 {
 
@@ -58,28 +52,5 @@ inline unsigned lanes_below(const Narrow& a, float limit)
     return bits;
 }
 #endif
-
-inline Index neighbours_in(std::span<const Run> runs)
-{
-    return std::accumulate(runs.begin(), runs.end(), Index{0},
-                           [](Index sum, const Run& run) { return sum + run.count; });
-}
-
-/// Appends first + bit for each bit that is set, as runs, to a list that may end with the particle before.
-inline void append_runs(std::vector<Run>& list, std::size_t begin, Index first, unsigned bits)
-{
-    while (bits != 0) {
-        const int skipped = std::countr_zero(bits);
-        bits >>= skipped;
-        first += skipped;
-        const int count = std::countr_one(bits);
-        if (list.size() > begin && list.back().first + list.back().count == first)
-            list.back().count += count;
-        else
-            list.push_back({first, count});
-        bits >>= count;
-        first += count;
-    }
-}
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -70,14 +70,19 @@ void NeighbourList::sort_into_columns(Particles& particles)
     const Index count = particles.count();
     const auto& position = particles.position;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    upper_ = {-infinity, -infinity, -infinity};
-    lower_ = {infinity, infinity, infinity};
+    double x0 = infinity, y0 = infinity, z0 = infinity, x1 = -infinity, y1 = -infinity, z1 = -infinity;
+#pragma omp parallel for schedule(static) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1) if (count > 8192)
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        lower_ = least(lower_, p);
-        upper_ = most(upper_, p);
+        x0 = std::min(x0, p.x);
+        y0 = std::min(y0, p.y);
+        z0 = std::min(z0, p.z);
+        x1 = std::max(x1, p.x);
+        y1 = std::max(y1, p.y);
+        z1 = std::max(z1, p.z);
     }
-    origin_ = lower_;
+    lower_ = origin_ = {x0, y0, z0};
+    upper_ = {x1, y1, z1};
     const double columns_x = std::floor((upper_.x - lower_.x) / column_width_) + 1.0;
     const double columns_y = std::floor((upper_.y - lower_.y) / column_width_) + 1.0;
     if (!(columns_x * columns_y < 1e8))
@@ -87,12 +92,13 @@ void NeighbourList::sort_into_columns(Particles& particles)
 
     const auto columns = static_cast<std::size_t>(columns_x_) * static_cast<std::size_t>(columns_y_);
     std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
+#pragma omp parallel for schedule(static) if (count > 8192)
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        const Index column = column_y(p.y) * columns_x_ + column_x(p.x);
-        column_of[static_cast<std::size_t>(i)] = column;
-        ++begin[static_cast<std::size_t>(column) + 1];
+        column_of[static_cast<std::size_t>(i)] = column_y(p.y) * columns_x_ + column_x(p.x);
     }
+    for (const Index column : column_of)
+        ++begin[static_cast<std::size_t>(column) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<Index> order(static_cast<std::size_t>(count)), next(begin.begin(), begin.end() - 1);
     for (Index i = 0; i < count; ++i)
@@ -167,9 +173,9 @@ void NeighbourList::find_neighbours(const Particles& particles)
                 const std::size_t begin = found.size();
                 list_cluster(particles, c, found);
                 list_images(particles, c);
-                const std::span<const Run> runs{found.data() + begin, found.size() - begin};
-                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(runs.size()),
-                                                        neighbours_in(runs)};
+                const std::span<const Listed> near{found.data() + begin, found.size() - begin};
+                ranges_[static_cast<std::size_t>(c)] = {chunk, begin, static_cast<Index>(near.size()),
+                                                        neighbours_in(near)};
             }
             // Growing by doubling leaves up to half of it unused.
             if (found.capacity() > found.size() + found.size() / 8) found.shrink_to_fit();
@@ -222,7 +228,7 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
 
 /// Two sieves: boxes of clusters against the box of this one, then a whole cluster of candidates at once against each
 /// of this one's particles.
-void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const
+void NeighbourList::list_cluster(const Particles& particles, Index c, std::vector<Listed>& found) const
 {
     const double reach = support_ + skin_;
     const auto& position = particles.position;
@@ -234,7 +240,6 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
 
     const Narrow x = narrow(position.x, cluster.first, middle.x), y = narrow(position.y, cluster.first, middle.y),
                  z = narrow(position.z, cluster.first, middle.z);
-    const std::size_t begin = found.size();
     for_each_cluster_near(box, [&](Index d) {
         const Cluster& near = clusters_[static_cast<std::size_t>(d)];
         const Narrow near_x = narrow(position.x, near.first, middle.x),
@@ -245,7 +250,8 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
             const Narrow dx = near_x - x[lane], dy = near_y - y[lane], dz = near_z - z[lane];
             nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);
         }
-        append_runs(found, begin, near.first, lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u));
+        const std::uint32_t reached = lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u);
+        if (reached != 0) found.push_back({near.first, reached});
     });
 }
 
@@ -403,7 +409,7 @@ std::size_t NeighbourList::bytes() const
                         cluster_of_.size() * sizeof(Index);
     for (const auto* lists : {&chunks_, &own_lists_})
         for (const auto& list : *lists)
-            total += list.capacity() * sizeof(Run);
+            total += list.capacity() * sizeof(Listed);
     for (const auto& list : image_runs_)
         total += sizeof(list) + list.capacity() * sizeof(ImageRun);
     return total + 3 * built_x_.size() * sizeof(double);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -17,15 +20,28 @@ struct Cluster
     Index count;
 };
 
-/// Particles one after the other in memory: neighbours mostly come so, a piece of a column at a time, and a list of
-/// runs is a third as long as one of particles.
-struct Run
+/// Some particles of a cluster: bit k stands for the one at first + k. A list of these is a fifth as long as one of
+/// particles, and turns into one without a branch.
+struct Listed
 {
     Index first;
-    Index count;
+    std::uint32_t lanes;
+
+    Index count() const { return std::popcount(lanes); }
+    template <class Visit> void for_each(const Visit& visit) const
+    {
+        for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+            visit(first + std::countr_zero(left));
+    }
 };
 
-/// The same of particles that are seen as an image, beyond a periodic or a symmetry side.
+inline Index neighbours_in(std::span<const Listed> list)
+{
+    return std::accumulate(list.begin(), list.end(), Index{0},
+                           [](Index sum, const Listed& some) { return sum + some.count(); });
+}
+
+/// Particles, one after the other in memory, that are seen as an image, beyond a periodic or a symmetry side.
 struct ImageRun
 {
     Index first;
@@ -57,8 +73,8 @@ public:
     Index cluster_count() const { return static_cast<Index>(clusters_.size()); }
     const Cluster& cluster(Index c) const { return clusters_[static_cast<std::size_t>(c)]; }
     Index cluster_of(Index particle) const { return cluster_of_[static_cast<std::size_t>(particle)]; }
-    /// The particles near a cluster as runs, none of them twice.
-    std::span<const Run> runs(Index c) const
+    /// The particles near a cluster, none of them twice.
+    std::span<const Listed> near(Index c) const
     {
         const auto& range = ranges_[static_cast<std::size_t>(c)];
         if (range.chunk == own_list) return own_lists_[static_cast<std::size_t>(c)];
@@ -78,9 +94,8 @@ public:
     /// Every particle that is near as itself.
     template <class Visit> void for_each_listed(Index c, const Visit& visit) const
     {
-        for (const Run& run : runs(c))
-            for (Index j = run.first; j < run.first + run.count; ++j)
-                visit(j);
+        for (const Listed& some : near(c))
+            some.for_each(visit);
     }
     /// Every particle that is near as itself, then every one that is near as an image (again, if need be).
     template <class Visit> void for_each_neighbour(Index c, const Visit& visit) const
@@ -115,7 +130,7 @@ private:
     void sort_into_columns(Particles& particles);
     void cut_clusters(const std::vector<Index>& first_of_column);
     void find_neighbours(const Particles& particles);
-    void list_cluster(const Particles& particles, Index c, std::vector<Run>& found) const;
+    void list_cluster(const Particles& particles, Index c, std::vector<Listed>& found) const;
     void list_images(const Particles& particles, Index c);
     void spread_loose_over_columns();
     std::vector<Index> clusters_near(std::span<const Index> moved) const;
@@ -134,13 +149,13 @@ private:
     std::vector<Cluster> clusters_;
     std::vector<Box> boxes_;
     std::vector<Range> ranges_;
-    std::vector<std::vector<Run>> chunks_;
+    std::vector<std::vector<Listed>> chunks_;
     Array built_x_, built_y_, built_z_;
     std::uint64_t builds_ = 0, refreshes_ = 0;
     bool skips_idle_ = true;
 
     // Clusters that have moved since the build: no longer in the column, nor at the height, that they were sorted to.
-    std::vector<std::vector<Run>> own_lists_;
+    std::vector<std::vector<Listed>> own_lists_;
     std::vector<unsigned char> is_loose_;
     std::vector<Index> loose_;
     std::vector<Index> first_loose_of_column_, loose_of_column_; ///< those whose box reaches into a column

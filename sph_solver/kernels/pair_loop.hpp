@@ -1,13 +1,17 @@
 #pragma once
 
+#include <atomic>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "kernels/field_lanes.hpp"
-#include "kernels/mirrored.hpp"
 #include "kernels/neighbour_list.hpp"
 #include "kernels/places.hpp"
+#include "kernels/quantities.hpp"
 #include "kernels/smoothing_kernel.hpp"
 #include "particles/particles.hpp"
 
@@ -22,7 +26,17 @@ struct Pair
     Lanes kernel;          ///< W_ij
     Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
 
-    VectorLanes gradient() const { return gradient_over_r * offset; }
+    // The same weighted with the neighbour's volume, once for all terms that ask for it.
+    Lanes volume_kernel;          ///< V_j W_ij
+    Lanes volume_gradient_over_r; ///< V_j (1/r) dW/dr
+    VectorLanes volume_gradient;  ///< V_j ∇_i W_ij
+
+    void weigh(const Real& volume)
+    {
+        volume_kernel = volume * kernel;
+        volume_gradient_over_r = volume * gradient_over_r;
+        volume_gradient = volume_gradient_over_r * offset;
+    }
 };
 
 /// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
@@ -61,7 +75,25 @@ template <class Term> auto far_of(const Term& term, Index j)
 template <class... Terms> struct Neighbour
 {
     Place place;
-    std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
+    Real volume;
+    Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
+};
+
+/// Makes it.
+template <class... Terms> struct RecordOf
+{
+    using Record = Neighbour<Terms...>;
+    using Far = decltype(Record::far);
+
+    const Particles& particles;
+    const Places& places;
+    const std::tuple<const Terms&...>& terms;
+
+    Far far(Index j) const
+    {
+        return std::apply([&](const Terms&... each) { return Far(far_of(each, j)...); }, terms);
+    }
+    Record operator()(Index j, const Far& far) const { return {places(j), real(particles.volume[j]), far}; }
 };
 
 /// visit(j, image, offset) for every particle that a cluster sees beyond a periodic or symmetry side. Few clusters see
@@ -95,16 +127,19 @@ void release_pass_memory();
 template <class Kernel> struct PairMaker
 {
     const Kernel& kernel;
-    double tiny; ///< added to squares, so that none is zero, m²
+    double tiny;     ///< added to squares, so that none is zero, m²
+    double farthest; ///< square beyond which the kernel is zero, m²
 
-    Pair operator()(const VectorLanes& offset) const
+    Lanes square(const VectorLanes& offset) const { return dot(offset, offset) + tiny; }
+    Pair operator()(const VectorLanes& offset, const Real& volume) const
     {
         Pair pair;
         pair.offset = offset;
-        pair.square = dot(offset, offset) + tiny;
+        pair.square = square(offset);
         const auto w = kernel.of_square(pair.square);
         pair.kernel = w.value;
         pair.gradient_over_r = w.gradient_over_r;
+        pair.weigh(volume);
         return pair;
     }
 };
@@ -113,19 +148,27 @@ template <class Kernel> struct PairMaker
 template <class... Terms> struct TermsOfCluster
 {
     using Sums = std::tuple<typename Terms::Sum...>;
-    using Fars = std::tuple<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
+    using Fars = Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
 
     const std::tuple<const Terms&...>& terms;
-    std::tuple<typename Terms::Near...> near;
+    Shared<typename Terms::Near...> near;
 
     TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
-        : terms(all), near(std::apply([&](const Terms&... each) { return std::tuple{each.near(first)...}; }, all))
+        : terms(all),
+          near(std::apply([&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(first)...); },
+                          all))
     {}
 
-    bool all_ignore(const Fars& far) const { return all_ignore(far, std::index_sequence_for<Terms...>{}); }
+    template <std::size_t... t>
+    static bool all_ignore(const std::tuple<const Terms&...>& all, const Fars& far, std::index_sequence<t...>)
+    {
+        return (ignores(std::get<t>(all), far.template of<t>()) && ...);
+    }
+    /// Terms from the first to the one before the end.
+    template <std::size_t first = 0, std::size_t end = sizeof...(Terms)>
     void add(const Fars& far, const Pair& pair, Sums& sums) const
     {
-        add(far, pair, sums, std::index_sequence_for<Terms...>{});
+        add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
     }
     void store(const Cluster& cluster, const Sums& sums) const
     {
@@ -133,71 +176,201 @@ template <class... Terms> struct TermsOfCluster
     }
 
 private:
-    template <std::size_t... t> bool all_ignore(const Fars& far, std::index_sequence<t...>) const
+    template <std::size_t first, std::size_t... k>
+    void add_from(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<k...>) const
     {
-        return (ignores(std::get<t>(terms), std::get<t>(far)) && ...);
+        (add_one<first + k>(far, pair, sums), ...);
     }
-    template <std::size_t... t> void add(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<t...>) const
+    template <std::size_t t> void add_one(const Fars& far, const Pair& pair, Sums& sums) const
     {
-        ((ignores(std::get<t>(terms), std::get<t>(far))
-              ? void()
-              : std::get<t>(terms).add(std::get<t>(near), std::get<t>(far), pair, std::get<t>(sums))),
-         ...);
+        if (!ignores(std::get<t>(terms), far.template of<t>()))
+            std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums));
     }
     template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
     {
-        (std::get<t>(terms).store(cluster, std::get<t>(near), std::get<t>(sums)), ...);
+        (std::get<t>(terms).store(cluster, near.template of<t>(), std::get<t>(sums)), ...);
     }
 };
 
-/// The sums over the neighbours that are listed; neighbour(j) gives a neighbour's record. All that it calls is compiled
-/// into it, so that sums stay in registers while neighbours pass by.
-template <class Kernel, class NeighbourOf, class... Terms>
+/// Appends the particles that are listed, in order; up to 16 more places may be written to. Returns the new end.
+inline Index* append(Index* end, const Listed& some)
+{
+#if defined(__AVX512F__)
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i all = _mm512_add_epi32(_mm512_set1_epi32(some.first), lane);
+    _mm512_storeu_si512(end, _mm512_maskz_compress_epi32(static_cast<__mmask16>(some.lanes), all));
+    return end + some.count();
+#else
+    for (int lane = 0; lane < lane_count; ++lane) {
+        *end = some.first + lane;
+        end += (some.lanes >> lane) & 1u;
+    }
+    return end;
+#endif
+}
+
+/// Which particles of a cluster a pass does not ignore, a bit for each: found where it is first asked, since a pass
+/// that looks up its neighbours is near few clusters, and each of those is near many others.
+class LanesOfInterest
+{
+public:
+    explicit LanesOfInterest(const NeighbourList& list)
+        : list_(list), lanes_(static_cast<std::size_t>(list.cluster_count()), unknown)
+    {}
+
+    template <class Ignored> std::uint32_t of(Index particle, const Ignored& ignored)
+    {
+        const Index c = list_.cluster_of(particle);
+        // Threads may find the same bits side by side.
+        const std::atomic_ref<std::uint32_t> kept(lanes_[static_cast<std::size_t>(c)]);
+        std::uint32_t lanes = kept.load(std::memory_order_relaxed);
+        if (lanes != unknown) return lanes;
+        const Cluster& cluster = list_.cluster(c);
+        lanes = 0;
+        for (Index k = 0; k < cluster.count; ++k)
+            lanes |= static_cast<std::uint32_t>(!ignored(cluster.first + k)) << k;
+        kept.store(lanes, std::memory_order_relaxed);
+        return lanes;
+    }
+
+private:
+    static constexpr std::uint32_t unknown = ~0u;
+    const NeighbourList& list_;
+    std::vector<std::uint32_t> lanes_;
+};
+
+/// The neighbours of one cluster that add to its sums: records, and which of them, in the order of the list.
+template <class Record> struct SomeRecords
+{
+    const Record* records;
+    std::span<const Index> which;
+};
+
+/// Makes them for cluster after cluster, in memory that each thread keeps.
+template <class Record> class NeighboursOfCluster
+{
+public:
+    /// From records of all particles.
+    template <class Ignored>
+    SomeRecords<Record> find(std::span<const Listed> near, const Record* records, const Ignored& ignored)
+    {
+        reserve(near);
+        Index* end = which_.data();
+        for (const Listed& some : near)
+            end = append(end, some);
+        if constexpr (!std::is_null_pointer_v<Ignored>) {
+            Index* kept = which_.data();
+            for (const Index* j = kept; j != end; ++j) {
+                *kept = *j;
+                kept += !ignored(records[*j].far);
+            }
+            end = kept;
+        }
+        return {records, {which_.data(), end}};
+    }
+    /// Looked up one by one, where a pass concerns too few for a record of each.
+    template <class RecordOf, class Wanted>
+    SomeRecords<Record> look_up(std::span<const Listed> near, const RecordOf& record_of, const Wanted& wanted)
+    {
+        copies_.resize(reserve(near) * sizeof(Record));
+        auto* records = reinterpret_cast<Record*>(copies_.data());
+        Index count = 0;
+        for (const Listed& some : near)
+            Listed{some.first, some.lanes & wanted(some.first)}.for_each(
+                [&](Index j) { new (records + count++) Record(record_of(j, record_of.far(j))); });
+        std::iota(which_.begin(), which_.begin() + count, Index{0});
+        return {records, {which_.data(), static_cast<std::size_t>(count)}};
+    }
+
+private:
+    std::size_t reserve(std::span<const Listed> near)
+    {
+        const auto count = static_cast<std::size_t>(neighbours_in(near));
+        if (which_.size() < count + 16) which_.resize(count + 16);
+        return count;
+    }
+    std::vector<Index> which_;
+    std::vector<std::byte> copies_;
+};
+
+/// visit(first, end) for groups of terms that follow each other, each of them with no more sums than there are
+/// registers for beside what they are made of.
+template <std::size_t first, class... Terms, class Visit> void for_each_group(const Visit& visit)
+{
+    constexpr std::size_t registers = 24;
+    constexpr std::size_t end = [] {
+        constexpr std::size_t sums[]{sizeof(typename Terms::Sum) / sizeof(Lanes)...};
+        std::size_t last = first + 1;
+        for (std::size_t total = sums[first]; last < sizeof...(Terms) && total + sums[last] <= registers; ++last)
+            total += sums[last];
+        return last;
+    }();
+    visit(std::integral_constant<std::size_t, first>{}, std::integral_constant<std::size_t, end>{});
+    if constexpr (end < sizeof...(Terms)) for_each_group<end, Terms...>(visit);
+}
+
+/// The sums over some neighbours. All that it calls is compiled into it, so that sums stay in registers while
+/// neighbours pass by. Kernels come first, for a few neighbours together, then the terms: what a kernel takes longest
+/// for (a root, powers) would otherwise hold up the sums, and a neighbour that turns out to be beyond the support of
+/// all particles of the cluster costs no more than its distance.
+template <class Kernel, class... Terms>
 [[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
-sum_over_runs(std::span<const Run> runs, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
-              const TermsOfCluster<Terms...>& terms, const NeighbourOf& neighbour)
+sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
+         const TermsOfCluster<Terms...>& terms)
 {
     // Not what is returned itself, which would be kept in memory.
     typename TermsOfCluster<Terms...>::Sums sums{};
-    if constexpr ((Ignores<Terms> && ...)) {
-        for (const Run& run : runs)
-            for (Index j = run.first; j < run.first + run.count; ++j) {
-                const auto& other = neighbour(j);
-                if (!terms.all_ignore(other.far))
-                    terms.add(other.far, pair_at(offset_between(here, other.place)), sums);
+    const auto* const records = neighbours.records;
+    const Index* next = neighbours.which.data();
+    const Index* const end = next + neighbours.which.size();
+    // An array for each number of a pair: those that no term asks for are left out. Bare registers, which nothing sets.
+    constexpr int most = 32;
+    using Register = Lanes::Register;
+    Register x[most], y[most], z[most], square[most], kernel[most], gradient_over_r[most];
+    Index neighbour[most];
+    while (next < end) {
+        int count = 0;
+        for (const Index* const last = std::min(next + most, end); next < last; ++next) {
+            const VectorLanes offset = offset_between(here, records[*next].place);
+            const Lanes r2 = pair_at.square(offset);
+            const auto w = pair_at.kernel.of_square(r2);
+            neighbour[count] = *next;
+            x[count] = offset.x.values();
+            y[count] = offset.y.values();
+            z[count] = offset.z.values();
+            square[count] = r2.values();
+            kernel[count] = w.value.values();
+            gradient_over_r[count] = w.gradient_over_r.values();
+            count += may_be_below(r2, pair_at.farthest);
+        }
+        for_each_group<0, Terms...>([&](auto first_term, auto end_term) {
+            for (int k = 0; k < count; ++k) {
+                const auto& other = records[neighbour[k]];
+                Pair pair;
+                pair.offset = {Lanes(x[k]), Lanes(y[k]), Lanes(z[k])};
+                pair.square = Lanes(square[k]);
+                pair.kernel = Lanes(kernel[k]);
+                pair.gradient_over_r = Lanes(gradient_over_r[k]);
+                pair.weigh(other.volume);
+                terms.template add<first_term(), end_term()>(other.far, pair, sums);
             }
-    }
-    else if (RunWalk walk(runs); walk.goes_on()) {
-        // One neighbour ahead: what a kernel takes longest for is under way while sums are added to.
-        Index j = walk.place();
-        Pair pair = pair_at(offset_between(here, neighbour(j).place));
-        do {
-            walk.advance();
-            const Index next = walk.place();
-            const Pair next_pair = pair_at(offset_between(here, neighbour(next).place));
-            terms.add(neighbour(j).far, pair, sums);
-            pair = next_pair;
-            j = next;
-        } while (walk.goes_on());
+        });
     }
     return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
 }
 
 /// Adds what a cluster sees beyond periodic and symmetry sides.
 template <class Kernel, class... Terms>
-[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const VectorField& position,
+[[gnu::noinline]] void add_images(const NeighbourList& list, Index c, const RecordOf<Terms...>& record,
                                   const PairMaker<Kernel>& pair_at, const TermsOfCluster<Terms...>& terms,
                                   typename TermsOfCluster<Terms...>::Sums& sums)
 {
-    for_each_image(
-        list, list.image_runs(c), position, list.cluster(c).first,
-        [&](Index j, const Image& image, const VectorLanes& offset) {
-            auto far = std::apply(
-                [&](const Terms&... each) { return typename TermsOfCluster<Terms...>::Fars{far_of(each, j)...}; },
-                terms.terms);
-            if (image.mirrors()) std::apply([&](auto&... f) { ((f = mirrored(f, image.sign)), ...); }, far);
-            terms.add(far, pair_at(offset), sums);
-        });
+    for_each_image(list, list.image_runs(c), record.particles.position, list.cluster(c).first,
+                   [&](Index j, const Image& image, const VectorLanes& offset) {
+                       auto far = record.far(j);
+                       if (image.mirrors()) far.turn(image.sign);
+                       terms.add(far, pair_at(offset, real(record.particles.volume[j])), sums);
+                   });
 }
 
 /// Sums over neighbours, several of them in one pass. A term is a struct with
@@ -212,52 +385,70 @@ template <class Kernel, class... Terms>
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
 ///
-/// Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
+/// Near and Far may be put together of quantities that terms share (quantities.hpp), so that add() says `const auto&
+/// j`. Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
 /// symmetry side would have to turn). The particle itself is among its neighbours (distance zero,
 /// gradient zero, W = W(0)). Each sum is added up by one thread in the order of the list, so the result does not depend
 /// on the number of threads.
 ///
 /// Where most clusters take part, what neighbours are asked for is gathered once for the whole pass; where few do, it
-/// is looked up as they meet it. In double the numbers are the same, in float to its round-off.
+/// is looked up for each cluster. The numbers are the same.
 template <class Kernel, class... Terms>
 void for_each_pair(const NeighbourList& list, const Particles& particles, const Kernel& kernel,
                    std::span<const Index> clusters, const Terms&... terms)
 {
     using Record = Neighbour<Terms...>;
     const auto count = static_cast<Index>(clusters.size());
-    const PairMaker<Kernel> pair_at{kernel, 1e-18 * list.support() * list.support()};
+    const double support_squared = list.support() * list.support();
+    const PairMaker<Kernel> pair_at{kernel, 1e-18 * support_squared, (1.0 + 1e-5) * support_squared};
     const Places places(list, particles.position);
     const std::tuple<const Terms&...> all_terms{terms...};
-    const auto sum_up = [&](const auto& neighbour) {
-        // A few clusters are done sooner than threads are woken.
-        const Index share = count > 512 ? 16 : 4;
-#pragma omp parallel if (count > 16)
-        {
-            const FlushedToZero no_denormals;
-#pragma omp for schedule(dynamic, share)
-            for (Index k = 0; k < count; ++k) {
-                const Index c = clusters[static_cast<std::size_t>(k)];
-                const Cluster cluster = list.cluster(c);
-                if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-                const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
-                auto sums =
-                    sum_over_runs(list.runs(c), places.of_cluster(cluster.first), pair_at, of_cluster, neighbour);
-                if (!list.image_runs(c).empty()) add_images(list, c, particles.position, pair_at, of_cluster, sums);
-                of_cluster.store(cluster, sums);
-            }
-        }
+    const RecordOf<Terms...> record{particles, places, all_terms};
+    const auto ignored = [&] {
+        if constexpr ((Ignores<Terms> && ...))
+            return [&](const auto& far) {
+                return TermsOfCluster<Terms...>::all_ignore(all_terms, far, std::index_sequence_for<Terms...>{});
+            };
+        else
+            return nullptr;
+    }();
+    std::optional<LanesOfInterest> of_interest;
+    const auto wanted = [&](Index first) -> std::uint32_t {
+        if constexpr ((Ignores<Terms> && ...))
+            return of_interest->of(first, [&](Index j) { return ignored(record.far(j)); });
+        else
+            return ~0u;
     };
-
-    if (2 * count < list.cluster_count()) {
-        sum_up([&](Index j) { return Record{places(j), {far_of(terms, j)...}}; });
-        return;
-    }
-    const Index all = particles.count();
-    auto* records = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
+    const Record* records = nullptr;
+    if (2 * count >= list.cluster_count()) {
+        const Index all = particles.count();
+        auto* made = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
 #pragma omp parallel for schedule(static)
-    for (Index j = 0; j < all; ++j)
-        new (records + j) Record{places(j), {far_of(terms, j)...}};
-    sum_up([records](Index j) -> const Record& { return records[j]; });
+        for (Index j = 0; j < all; ++j)
+            new (made + j) Record(record(j, record.far(j)));
+        records = made;
+    }
+    else if constexpr ((Ignores<Terms> && ...))
+        of_interest.emplace(list);
+    // A few clusters are done sooner than threads are woken.
+    const Index share = count > 512 ? 16 : 4;
+#pragma omp parallel if (count > 16)
+    {
+        const FlushedToZero no_denormals;
+        static thread_local NeighboursOfCluster<Record> neighbours;
+#pragma omp for schedule(dynamic, share)
+        for (Index k = 0; k < count; ++k) {
+            const Index c = clusters[static_cast<std::size_t>(k)];
+            const Cluster cluster = list.cluster(c);
+            if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+            const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+            const auto found = records ? neighbours.find(list.near(c), records, ignored)
+                                       : neighbours.look_up(list.near(c), record, wanted);
+            auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
+            if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
+            of_cluster.store(cluster, sums);
+        }
+    }
 }
 
 /// Sum of value(i) over all particles, of a number or of anything that adds up, in blocks of fixed size so that the

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "kernels/field_lanes.hpp"
 #include "kernels/neighbour_list.hpp"
 
@@ -81,37 +78,5 @@ private:
 };
 
 #endif
-
-/// Goes through the particles of some runs, one after the other, without a branch where a run ends and the next begins:
-/// where that is, no processor can foresee.
-class RunWalk
-{
-public:
-    explicit RunWalk(std::span<const Run> runs) : run_(runs.data()), last_(run_ + (runs.empty() ? 0 : runs.size() - 1))
-    {
-        for (const Run& run : runs)
-            left_ += run.count;
-        if (left_ == 0) return;
-        place_ = run_->first;
-        end_ = place_ + run_->count;
-    }
-    bool goes_on() const { return left_ != 0; }
-    Index place() const { return place_; }
-    void advance()
-    {
-        --left_;
-        ++place_;
-        const Run& next = *(run_ + (run_ != last_));
-        const Index first = next.first, end = first + next.count;
-        const Index at_end = -static_cast<Index>(place_ == end_); // all bits or none
-        run_ -= at_end;
-        place_ ^= (place_ ^ first) & at_end;
-        end_ ^= (end_ ^ end) & at_end;
-    }
-
-private:
-    const Run *run_, *last_;
-    Index left_ = 0, place_ = 0, end_ = 0;
-};
 
 } // namespace cupel::inline CUPEL_ENGINE

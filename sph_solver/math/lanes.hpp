@@ -241,6 +241,26 @@ inline unsigned set_lanes(const LaneMask& mask)
 #endif
 }
 
+/// Whether a lane is below a limit; where the machine has no short way to tell, always.
+inline bool may_be_below(const Lanes& a, double limit)
+{
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 8)
+        return _mm512_cmp_pd_mask(doubles(a), _mm512_set1_pd(limit), _CMP_LT_OQ) != 0;
+    else
+        return _mm512_cmp_ps_mask(floats(a), _mm512_set1_ps(static_cast<float>(limit)), _CMP_LT_OQ) != 0;
+#elif defined(__AVX2__)
+    const LaneMask below = a < Lanes(limit);
+    __m256i halves[2];
+    std::memcpy(halves, &below.bits, sizeof halves);
+    const __m256i either = _mm256_or_si256(halves[0], halves[1]);
+    return _mm256_testz_si256(either, either) == 0;
+#else
+    static_cast<void>(a), static_cast<void>(limit);
+    return true;
+#endif
+}
+
 /// Consecutive values; arrays keep 16 values beyond their end readable.
 inline Lanes load_lanes(const double* values)
 {

@@ -77,15 +77,15 @@ template <class Scalar> struct Symmetric3
 {
     Scalar xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 
-    /// Adds weight · a ⊗ a.
-    void add_outer(const Scalar& weight, const VectorOf<Scalar>& a)
+    /// Subtracts a ⊗ b, a and b parallel.
+    void subtract_product(const VectorOf<Scalar>& a, const VectorOf<Scalar>& b)
     {
-        xx += weight * a.x * a.x;
-        xy += weight * a.x * a.y;
-        xz += weight * a.x * a.z;
-        yy += weight * a.y * a.y;
-        yz += weight * a.y * a.z;
-        zz += weight * a.z * a.z;
+        xx -= a.x * b.x;
+        xy -= a.x * b.y;
+        xz -= a.x * b.z;
+        yy -= a.y * b.y;
+        yz -= a.y * b.z;
+        zz -= a.z * b.z;
     }
 };
 

@@ -20,10 +20,13 @@ struct ArtificialStress
     const ScalarField& pressure;
     VectorField& force;
 
-    struct Near
+    template <class Scalar> struct Stress
     {
-        Lanes mass, stress;
+        Scalar stress; ///< R, Pa m⁶/kg²
     };
+    using Near = Of<Lanes, quantity::Mass, Stress>;
+    /// Of what stands a mass of zero.
+    using Far = Of<Real, quantity::Mass, Stress>;
     struct Sum
     {
         VectorLanes force{};
@@ -35,13 +38,15 @@ struct ArtificialStress
         const Lanes p = lanes(pressure, first), rho = lanes(density, first);
         return {lanes(mass, first), strength * maximum(p, -p) / (rho * rho)};
     }
-    void add(const Near& i, Index j, const Pair& pair, Sum& sum) const
+    Far far(Index j) const
     {
-        if (mobility.weight[j] == 0.0) return;
-        const double stress_j = strength * std::abs(pressure[j]) / (density[j] * density[j]);
+        return {real(mobility.weight[j] * mass[j]), real(strength * std::abs(pressure[j]) / (density[j] * density[j]))};
+    }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
         const Lanes closeness = pair.kernel / kernel_at_spacing;
         const Lanes fourth = closeness * closeness * (closeness * closeness);
-        sum.force -= (i.mass * mass[j] * fourth * (i.stress + stress_j) * pair.gradient_over_r) * pair.offset;
+        sum.force -= (i.mass * j.mass * fourth * (i.stress + j.stress) * pair.gradient_over_r) * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

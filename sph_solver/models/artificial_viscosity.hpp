@@ -21,16 +21,9 @@ struct ArtificialViscosity
     const VectorField& velocity;
     VectorField& force;
 
-    struct Near
-    {
-        Lanes mass, density;
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real liquid, mass, density; ///< liquid: 1 or 0
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Mass, quantity::Density, quantity::Velocity>;
+    /// Of what stands a mass of zero.
+    using Far = Of<Real, quantity::Mass, quantity::Density, quantity::Velocity>;
     struct Sum
     {
         VectorLanes force{};
@@ -38,8 +31,7 @@ struct ArtificialViscosity
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(mass, first), lanes(density, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(mass[j]), real(density[j]), real(velocity[j])}; }
-    bool ignores(const Far& j) const { return j.liquid == 0; }
+    Far far(Index j) const { return {real(mobility.weight[j] * mass[j]), real(density[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const double h = smoothing_length;

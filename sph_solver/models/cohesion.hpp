@@ -32,7 +32,7 @@ struct Cohesion
     SurfaceTensionLaw tension;
     const std::vector<Kind>& kind;
     const ScalarField* temperature; ///< null where it is the same everywhere
-    const ScalarField& unresolved;  ///< w
+    const ScalarField& unresolved;  ///< w of what moves
     VectorField& force;             ///< N: added to
 
     struct Near
@@ -63,7 +63,8 @@ struct Cohesion
     Far far(Index j) const
     {
         const bool wall = kind[static_cast<std::size_t>(j)] == Kind::wall;
-        return {real(wall ? 0.0 : unresolved[j]), real(wall ? -1.0 : strength(j))};
+        // What has frozen is a body, whatever it was when it last moved.
+        return {real(wall ? 0.0 : mobility.weight[j] * unresolved[j]), real(wall ? -1.0 : strength(j))};
     }
     bool ignores(const Far& j) const { return j.strength < 0; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const

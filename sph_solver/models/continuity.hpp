@@ -26,7 +26,6 @@ namespace cupel::inline CUPEL_ENGINE
 struct Continuity
 {
     Mobility mobility;
-    const ScalarField& volume;
     const ScalarField& density;
     const VectorField& velocity;
     VelocityGradientFields gradient;  ///< ∇v, corrected, of this step
@@ -34,16 +33,8 @@ struct Continuity
     ScalarField& density_rate;
     ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
-    struct Near
-    {
-        Lanes density;
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real volume;
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Density, quantity::Velocity>;
+    using Far = Of<Real, quantity::Velocity>;
     struct Sum
     {
         Lanes divergence{};
@@ -51,10 +42,10 @@ struct Continuity
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(density, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(velocity[j])}; }
+    Far far(Index j) const { return {real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.divergence += j.volume * pair.gradient_over_r * dot(i.velocity - broadcast(j.velocity), pair.offset);
+        sum.divergence += dot(i.velocity - broadcast(j.velocity), pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {

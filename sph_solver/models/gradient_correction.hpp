@@ -62,15 +62,10 @@ struct GradientCorrection
 {
     Mobility mobility;
     int dimensions;
-    const ScalarField& volume;
     CorrectionMatrix matrix;
 
     struct Near
     {};
-    struct Far
-    {
-        Real volume;
-    };
     struct Sum
     {
         Symmetric3<Lanes> moment{};
@@ -78,10 +73,9 @@ struct GradientCorrection
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index) const { return {}; }
-    Far far(Index j) const { return {real(volume[j])}; }
-    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    void add(const Near&, Index, const Pair& pair, Sum& sum) const
     {
-        sum.moment.add_outer(-j.volume * pair.gradient_over_r, pair.offset);
+        sum.moment.subtract_product(pair.volume_gradient, pair.offset);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -102,7 +96,6 @@ struct GradientCorrection
 struct ScalarGradient
 {
     Mobility mobility;
-    const ScalarField& volume;
     const ScalarField& value;
     VectorField& raw_gradient;
 
@@ -112,7 +105,7 @@ struct ScalarGradient
     };
     struct Far
     {
-        Real volume, value;
+        Real value;
     };
     struct Sum
     {
@@ -121,10 +114,10 @@ struct ScalarGradient
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(value, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(value[j])}; }
+    Far far(Index j) const { return {real(value[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.gradient += (j.volume * (j.value - i.value) * pair.gradient_over_r) * pair.offset;
+        sum.gradient += (j.value - i.value) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

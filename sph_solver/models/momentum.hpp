@@ -26,40 +26,32 @@ struct FreeSurfaceMomentum
     VectorField& viscous_force;
     ScalarField& wall_power; ///< W
 
-    struct Near
-    {
-        Lanes volume, pressure;
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real liquid, volume, pressure; ///< liquid: 1 or 0
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Pressure, quantity::Velocity>;
+    using Far = Of<Real, quantity::Liquid, quantity::Pressure, quantity::Velocity>;
     struct Sum
     {
-        VectorLanes pressure{}, viscous{};
+        VectorLanes push{}, drag{};
         Lanes wall_power{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {lanes(volume, first), lanes(pressure, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(volume[j]), real(pressure[j]), real(velocity[j])}; }
+    Near near(Index first) const { return {lanes(pressure, first), lanes(velocity, first)}; }
+    Far far(Index j) const { return {real(mobility.weight[j]), real(pressure[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes weight = i.volume * j.volume * pair.gradient_over_r;
-        sum.pressure -= (weight * (i.pressure + j.pressure)) * pair.offset;
-        sum.viscous += (2.0 * viscosity * weight) * (i.velocity - broadcast(j.velocity));
+        sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
+        sum.drag += pair.volume_gradient_over_r * (i.velocity - broadcast(j.velocity));
         if (j.liquid == 0)
-            sum.wall_power -= weight * (j.pressure * dot(i.velocity, pair.offset) +
-                                        i.pressure * dot(broadcast(j.velocity), pair.offset));
+            sum.wall_power -=
+                dot(Lanes(j.pressure) * i.velocity + i.pressure * broadcast(j.velocity), pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
-        store_if(pressure_force, cluster, sum.pressure, liquid);
-        store_if(viscous_force, cluster, sum.viscous, liquid);
-        store_if(wall_power, cluster, sum.wall_power, liquid);
+        const Lanes volume_i = lanes(volume, cluster.first);
+        store_if(pressure_force, cluster, volume_i * sum.push, liquid);
+        store_if(viscous_force, cluster, (Lanes(2.0 * viscosity) * volume_i) * sum.drag, liquid);
+        store_if(wall_power, cluster, volume_i * sum.wall_power, liquid);
     }
 };
 

@@ -15,7 +15,6 @@ namespace cupel::inline CUPEL_ENGINE
 /// codes to be measured against.
 struct PlainFlow
 {
-    const ScalarField& volume;
     const ScalarField& density;
     const ScalarField& pressure;
     const VectorField& velocity;
@@ -23,16 +22,8 @@ struct PlainFlow
     ScalarField& density_rate;
     VectorField& acceleration;
 
-    struct Near
-    {
-        Lanes pressure;
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real volume, pressure;
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Pressure, quantity::Velocity>;
+    using Far = Of<Real, quantity::Pressure, quantity::Velocity>;
     struct Sum
     {
         Lanes divergence{};
@@ -41,14 +32,13 @@ struct PlainFlow
 
     bool idle(const Cluster&) const { return false; }
     Near near(Index first) const { return {lanes(pressure, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(pressure[j]), real(velocity[j])}; }
+    Far far(Index j) const { return {real(pressure[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes weight = j.volume * pair.gradient_over_r;
         const VectorLanes difference = i.velocity - broadcast(j.velocity);
-        sum.divergence += weight * dot(difference, pair.offset);
-        sum.push -= (weight * (i.pressure + j.pressure)) * pair.offset;
-        sum.drag += weight * difference;
+        sum.divergence += dot(difference, pair.volume_gradient);
+        sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
+        sum.drag += pair.volume_gradient_over_r * difference;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

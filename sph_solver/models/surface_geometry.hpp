@@ -60,7 +60,6 @@ struct ColourGradient
     Mobility mobility;
     bool two_phase;
     double smoothing_length;
-    const ScalarField& volume;
     SurfaceFields surface;
 
     struct Near
@@ -69,7 +68,7 @@ struct ColourGradient
     };
     struct Far
     {
-        Real colour, volume;
+        Real colour;
     };
     struct Sum
     {
@@ -79,12 +78,12 @@ struct ColourGradient
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {two_phase ? lanes(surface.colour, first) : Lanes{}}; }
-    Far far(Index j) const { return {real(surface.colour[j]), real(volume[j])}; }
+    Far far(Index j) const { return {real(surface.colour[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.gradient -= (j.volume * (j.colour - i.colour) * pair.gradient_over_r) * pair.offset;
-        sum.colour += (j.volume * j.colour) * pair.kernel;
-        sum.weight += j.volume * pair.kernel;
+        sum.gradient -= (j.colour - i.colour) * pair.volume_gradient;
+        sum.colour += j.colour * pair.volume_kernel;
+        sum.weight += pair.volume_kernel;
         sum.companions += select(counted(pair, smoothing_length), 1.0, 0.0);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const

@@ -39,20 +39,12 @@ struct VelocityGradientFields
 struct VelocityGradient
 {
     Mobility mobility;
-    const ScalarField& volume;
     const VectorField& velocity;
     CorrectionMatrix correction;
     VelocityGradientFields gradient;
 
-    struct Near
-    {
-        VectorLanes velocity;
-    };
-    struct Far
-    {
-        Real volume;
-        VectorOf<Real> velocity;
-    };
+    using Near = Of<Lanes, quantity::Velocity>;
+    using Far = Of<Real, quantity::Velocity>;
     struct Sum
     {
         VectorLanes x{}, y{}, z{};
@@ -60,14 +52,13 @@ struct VelocityGradient
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(velocity[j])}; }
+    Far far(Index j) const { return {real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes weight = (j.volume * pair.gradient_over_r) * pair.offset;
-        const VectorLanes change = broadcast(j.velocity) - i.velocity;
-        sum.x += change.x * weight;
-        sum.y += change.y * weight;
-        sum.z += change.z * weight;
+        const VectorLanes change = i.velocity - broadcast(j.velocity);
+        sum.x -= change.x * pair.volume_gradient;
+        sum.y -= change.y * pair.volume_gradient;
+        sum.z -= change.z * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

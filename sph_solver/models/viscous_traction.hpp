@@ -29,14 +29,11 @@ struct ViscousTraction
     VectorField& force; ///< added to
 
     struct Near
-    {
-        Lanes volume;
-        VectorLanes x, y, z;
-    };
+    {};
     struct Far
     {
-        Real volume, liquid; ///< liquid: 1 or 0
-        VectorOf<Real> x, y, z;
+        Real own;               ///< how often the gradient at i counts: 1, beside what continues it 2
+        VectorOf<Real> x, y, z; ///< rows of ∇v_j; zero of what continues that at i
 
         Far mirrored(const Vector& sign) const
         {
@@ -44,37 +41,37 @@ struct ViscousTraction
                 return VectorOf<Real>{real(component * sign.x) * g.x, real(component * sign.y) * g.y,
                                       real(component * sign.z) * g.z};
             };
-            return {volume, liquid, row(sign.x, x), row(sign.y, y), row(sign.z, z)};
+            return {own, row(sign.x, x), row(sign.y, y), row(sign.z, z)};
         }
     };
     struct Sum
     {
-        VectorLanes force{};
+        VectorLanes own{}, others{}; ///< Σ V_j ∇W, which ∇v_iᵀ multiplies, and Σ V_j ∇v_jᵀ ∇W
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const
-    {
-        return {lanes(volume, first), lanes(gradient.x, first), lanes(gradient.y, first), lanes(gradient.z, first)};
-    }
+    Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        return {real(volume[j]), real(mobility.weight[j]), real(gradient.x[j]), real(gradient.y[j]),
-                real(gradient.z[j])};
+        const double liquid = mobility.weight[j];
+        return {real(2.0 - liquid), real(liquid * gradient.x[j]), real(liquid * gradient.y[j]),
+                real(liquid * gradient.z[j])};
     }
-    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes weight = (i.volume * j.volume * pair.gradient_over_r) * pair.offset;
-        const auto both = [&](const VectorLanes& own, const VectorOf<Real>& other) {
-            return j.liquid != 0 ? own + broadcast(other) : own + own;
-        };
-        sum.force += weight.x * both(i.x, j.x) + weight.y * both(i.y, j.y) + weight.z * both(i.z, j.z);
+        const VectorLanes& n = pair.volume_gradient;
+        sum.own += Lanes(j.own) * n;
+        sum.others += n.x * broadcast(j.x) + n.y * broadcast(j.y) + n.z * broadcast(j.z);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         for (int lane = 0; lane < cluster.count; ++lane)
-            if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0)
-                force.set(i, force[i] + viscosity * Vector{sum.force.x[lane], sum.force.y[lane], sum.force.z[lane]});
+            if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0) {
+                const Vector n{sum.own.x[lane], sum.own.y[lane], sum.own.z[lane]};
+                const Vector others{sum.others.x[lane], sum.others.y[lane], sum.others.z[lane]};
+                const Vector traction = n.x * gradient.x[i] + n.y * gradient.y[i] + n.z * gradient.z[i] + others;
+                force.set(i, force[i] + viscosity * volume[i] * traction);
+            }
     }
 };
 

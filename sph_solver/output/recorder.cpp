@@ -68,9 +68,8 @@ void Recorder::begin()
     volume_ = {volume, volume, 0.0, 0.0, volume};
     add_history_row();
     write_snapshot_now();
-    // Whatever a guard meets before the first interval has passed, there is a good state to go back to.
+    // The first checkpoint waits until it is due: whatever is met before that, a run's start can be made again.
     settle();
-    write_checkpoint();
 }
 
 /// Takes up a checkpoint's state, and returns it.
@@ -160,9 +159,8 @@ void Recorder::step()
 }
 
 /// Walls and solids carry the velocity that stands for their boundary condition; what is seen of them is at rest.
-void Recorder::bring_standing_to_rest()
+void Recorder::bring_standing_to_rest(Particles& particles)
 {
-    Particles& particles = simulation_.particles();
     const ScalarField& mobility = particles.scalar("mobility");
     for (Index i = 0; i < particles.count(); ++i)
         if (mobility[i] == 0.0) particles.velocity.set(i, {});
@@ -171,17 +169,17 @@ void Recorder::bring_standing_to_rest()
 void Recorder::write_snapshot_now()
 {
     const TimedScope timed(output_seconds_);
-    bring_standing_to_rest();
+    bring_standing_to_rest(simulation_.particles());
     fields_->write(simulation_.particles(), simulation_.time());
 }
 
-void Recorder::write_checkpoint()
+/// What a checkpoint keeps beside the particles.
+RunState Recorder::state_of(const Simulation& simulation) const
 {
-    const TimedScope timed(output_seconds_);
     RunState state;
-    state.time = simulation_.time();
-    state.step = simulation_.steps();
-    simulation_.save(state.numbers);
+    state.time = simulation.time();
+    state.step = simulation.steps();
+    simulation.save(state.numbers);
     save_ledger("mass", mass_, state.numbers);
     save_ledger("volume", volume_, state.numbers);
     state.numbers["recorder.greatest_volume_error"] = greatest_volume_error_;
@@ -193,9 +191,30 @@ void Recorder::write_checkpoint()
     const SnapshotList snapshots = fields_->until(state.time);
     state.arrays["snapshots.times"] = snapshots.times;
     state.arrays["snapshots.numbers"] = snapshots.numbers;
+    return state;
+}
+
+void Recorder::write_checkpoint()
+{
+    const TimedScope timed(output_seconds_);
+    const RunState state = state_of(simulation_);
     history_->flush();
     fields_->flush();
     checkpoints_->write(simulation_.particles(), state);
+}
+
+/// A checkpoint of the run's start, which is placed once more: the same bits, since nothing in it depends on the clock.
+std::filesystem::path Recorder::write_start()
+{
+    Simulation start(place_particles(simulation_.scene().definition));
+    start.start();
+    bring_standing_to_rest(start.particles()); // as before the first snapshot
+    start.settle();
+    mass_.end = mass_.start;
+    volume_.end = volume_.start;
+    greatest_volume_error_ = 0.0;
+    next_output_ = 1;
+    return checkpoints_->write(start.particles(), state_of(start));
 }
 
 double Recorder::total_mass() const

@@ -50,9 +50,11 @@ private:
     bool output_is_due() const { return simulation_.last_binding() == "output"; }
     bool history_is_due() const { return simulation_.steps() % steps_between_history_rows == 0; }
     void settle();
-    void bring_standing_to_rest();
+    static void bring_standing_to_rest(Particles& particles);
     void write_snapshot_now();
+    RunState state_of(const Simulation& simulation) const;
     void write_checkpoint();
+    std::filesystem::path write_start();
     void update_books();
     void add_history_row();
     void stop(const Diagnosis& diagnosis);

@@ -103,19 +103,20 @@ void Recorder::stop(const Diagnosis& diagnosis)
 }
 
 /// The last good state is that of the last step after which the run settled, having passed all guards: from the newest
-/// checkpoint the same steps lead there again, bit for bit, without a copy of the particles held through all the run.
+/// checkpoint, or from the start where none was due yet, the same steps lead there again, bit for bit, without a copy
+/// of the particles held through all the run.
 void Recorder::return_to_last_good_state()
 {
     const std::uint64_t good = settled_step_;
-    const auto checkpoint = newest_checkpoint(folder_.checkpoints());
-    if (!checkpoint) throw OutputError(folder_.checkpoints().string() + ": the checkpoints have been removed");
-    load(*checkpoint);
-    log_->info("going back to step {} by way of {}", good, checkpoint->filename().string());
+    const auto newest = newest_checkpoint(folder_.checkpoints());
+    const std::filesystem::path checkpoint = newest ? *newest : write_start();
+    load(checkpoint);
+    log_->info("going back to step {} by way of {}", good, checkpoint.filename().string());
     const std::uint64_t start = simulation_.steps();
     while (simulation_.steps() < good && !stop_requested()) {
         simulation_.step(longest_step());
         if (output_is_due()) {
-            bring_standing_to_rest();
+            bring_standing_to_rest(simulation_.particles());
             ++next_output_;
         }
         if (history_is_due()) update_books();
@@ -123,7 +124,7 @@ void Recorder::return_to_last_good_state()
     }
     if (simulation_.steps() != good) throw OutputError("interrupted on the way to it");
     if (good != start) write_checkpoint();
-    bring_standing_to_rest();
+    bring_standing_to_rest(simulation_.particles());
     write_snapshot(folder_.last_good_fields(), simulation_.particles(), simulation_.time(), provenance_);
     log_->info("the last good state, t = {:.6g} s, is in {} and the newest checkpoint", simulation_.time(),
                folder_.last_good_fields().filename().string());

@@ -25,9 +25,14 @@ template <class Field> Field& get(const std::vector<std::unique_ptr<Field>>& fie
 
 void permute_array(Array& values, Array& scratch, std::span<const Index> order)
 {
-    for (std::size_t k = 0; k < order.size(); ++k)
+    const std::size_t count = order.size();
+    scratch.resize(values.size());
+#pragma omp parallel for schedule(static) if (count > 8192)
+    for (std::size_t k = 0; k < count; ++k)
         scratch[k] = values[static_cast<std::size_t>(order[k])];
-    std::copy_n(scratch.begin(), order.size(), values.begin());
+    std::copy(values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
+              scratch.begin() + static_cast<std::ptrdiff_t>(count));
+    values.swap(scratch);
 }
 
 template <class T> void permute_vector(std::vector<T>& values, std::span<const Index> order)
@@ -97,7 +102,6 @@ const VectorField& Particles::vector(std::string_view name) const
 
 void Particles::permute(std::span<const Index> order)
 {
-    scratch_.resize(order.size());
     for (const auto& field : scalars_)
         permute_array(field->values, scratch_, order);
     for (const auto& field : vectors_)

@@ -111,8 +111,8 @@ private:
     void sum_up()
     {
         for_each_pair(neighbourhood_.list(), particles_, kernel_, neighbourhood_.all(),
-                      PlainFlow{particles_.volume, particles_.density, particles_.pressure, particles_.velocity,
-                                viscosity, density_rate_, acceleration_});
+                      PlainFlow{particles_.density, particles_.pressure, particles_.velocity, viscosity, density_rate_,
+                                acceleration_});
     }
 
     int cells_;

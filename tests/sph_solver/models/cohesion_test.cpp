@@ -97,6 +97,39 @@ TEST_P(CohesionIn, PairForcesCancel)
     EXPECT_LT(norm(sum), 1e-12 * greatest * static_cast<double>(particles.count()));
 }
 
+/// What has frozen keeps the value that it had as spray; it is part of a body now.
+TEST(Cohesion, FrozenSprayHoldsNothing)
+{
+    Particles particles = small_scenes::jittered_lattice(6, 3, 0.3);
+    ScalarField& mobility = particles.add_scalar({"mobility", "1"}, 1.0);
+    ScalarField& unresolved = particles.add_scalar({"unresolved", "1"});
+    VectorField& force = particles.add_vector({"force", "N"});
+    Neighbourhood neighbourhood(3.0, 0.3, 1.0, 3);
+    neighbourhood.rebuild(particles, mobility);
+    const Index spray = particles.count() / 2;
+    const auto greatest_force = [&](double moves) {
+        unresolved[spray] = 1.0;
+        mobility[spray] = moves;
+        std::fill(force.x.begin(), force.x.end(), 0.0);
+        for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, 3), neighbourhood.all(),
+                      Cohesion{{mobility},
+                               1.0,
+                               1.0,
+                               Cohesion::bonds_across_a_plane(3),
+                               {surface_tension, 0.0, 0.0, 0.0},
+                               particles.kind,
+                               nullptr,
+                               unresolved,
+                               force});
+        double greatest = 0.0;
+        for (Index i = 0; i < particles.count(); ++i)
+            if (i != spray) greatest = std::max(greatest, std::abs(force[i].x));
+        return greatest;
+    };
+    EXPECT_GT(greatest_force(1.0), 0.01);
+    EXPECT_EQ(greatest_force(0.0), 0.0);
+}
+
 TEST(Cohesion, ActsOnSheetsAndSprayAndLeavesFlatSurfacesAlone)
 {
     const double full = lattice_companions(3);

@@ -6,6 +6,7 @@
 #include "models/equation_of_state.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/shifting_exchange.hpp"
 #include "models/surface_forces.hpp"
 #include "models/surface_geometry.hpp"
 #include "models/surface_load.hpp"
@@ -31,7 +32,7 @@ struct Block
         for (Index i = 0; i < particles.count(); ++i)
             mobility[i] = 1.0;
         neighbourhood.rebuild(particles, mobility);
-        run(GradientCorrection{{mobility}, dimensions, particles.volume, correction});
+        run(GradientCorrection{{mobility}, dimensions, correction});
     }
     template <class Term> void run(const Term& term)
     {
@@ -58,7 +59,7 @@ TEST_P(FlowModels, CorrectedGradientOfALinearFieldIsExact)
     const Vector exact{1.5, GetParam() == 2 ? 0.0 : -2.0, 0.5};
     for (Index i = 0; i < block.particles.count(); ++i)
         value[i] = 3.0 + dot(exact, block.particles.position[i]);
-    block.run(ScalarGradient{{block.mobility}, block.particles.volume, value, gradient});
+    block.run(ScalarGradient{{block.mobility}, value, gradient});
     for (Index i = 0; i < block.particles.count(); ++i)
         EXPECT_NEAR(norm(block.correction[i] * gradient[i] - exact), 0.0, 1e-10);
 }
@@ -72,7 +73,6 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     for (Index i = 0; i < particles.count(); ++i)
         particles.velocity.set(i, velocity(particles.position[i]));
     block.run(Continuity{{block.mobility},
-                         particles.volume,
                          particles.density,
                          particles.velocity,
                          VelocityGradientFields::register_in(particles),
@@ -107,15 +107,9 @@ TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeave
             particles.velocity.set(i, {(1.0 + expansion) * p.x, 0.0, -p.z});
             delta[i] = 1.0;
         }
-        block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, gradient});
-        block.run(Continuity{{block.mobility},
-                             particles.volume,
-                             particles.density,
-                             particles.velocity,
-                             gradient,
-                             surface_delta,
-                             rate,
-                             nullptr});
+        block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
+        block.run(Continuity{
+            {block.mobility}, particles.density, particles.velocity, gradient, surface_delta, rate, nullptr});
         double greatest = 0.0;
         for (Index i = 0; i < particles.count(); ++i)
             greatest = std::max(greatest, std::abs(rate[i] + expansion * particles.density[i]));
@@ -165,7 +159,7 @@ TEST_P(FlowModels, DensityDiffusionConservesAndLeavesALinearDensityAlone)
             gradient.set(i, slope);
             rate[i] = 0.0;
         }
-        block.run(DensityDiffusion{{block.mobility}, particles.volume, particles.density, gradient, 0.7, rate});
+        block.run(DensityDiffusion{{block.mobility}, particles.density, gradient, 0.7, rate});
     };
     diffuse([&](const Vector& p) { return 1.0 + dot(slope, p); });
     for (Index i = 0; i < particles.count(); ++i)
@@ -235,7 +229,6 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
                                       viscous_force,
                                       wall_power});
         block.run(Continuity{{block.mobility},
-                             particles.volume,
                              particles.density,
                              particles.velocity,
                              velocity_gradient,
@@ -302,7 +295,7 @@ ViscousPower viscous_power(int dimensions, double jitter)
             sum += dot(force[i], particles.velocity[i]);
         return sum;
     };
-    block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, gradient});
+    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_power});
     ViscousPower result{power(), 0.0, {}};
@@ -340,7 +333,7 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
         particles.velocity.set(i, {p.x + 2.0 * p.z, 0.0, -p.z});
         force.set(i, {});
     }
-    block.run(VelocityGradient{{block.mobility}, particles.volume, particles.velocity, block.correction, stress});
+    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, stress});
     for (Index i = 0; i < particles.count(); ++i)
         for (VectorField* row : {&stress.x, &stress.y, &stress.z})
             row->set(i, (particles.position[i].x > middle.x ? 0.3 : 0.0) * (*row)[i]);
@@ -371,16 +364,16 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
     VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
+    ScalarField& enthalpy = particles.add_scalar({"enthalpy", "J/kg"});
+    ScalarField& energy_rate = particles.add_scalar({"energy_rate", "W"});
     const auto shifting = [&] {
-        block.run(VelocityGradient{
-            {block.mobility}, particles.volume, particles.velocity, block.correction, velocity_gradient});
+        block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, velocity_gradient});
         block.run(ShiftingVelocity{{block.mobility},
                                    1.0,
                                    1.0,
                                    100.0,
                                    block.kernel(1.0).value,
                                    1e9,
-                                   particles.volume,
                                    velocity_gradient,
                                    particles.mass,
                                    1.0,
@@ -397,22 +390,28 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     shifting();
     // Simple shear u = 3 z has γ̇ = 3.
     EXPECT_NEAR(velocity_gradient.strain_rate(0), 3.0, 1e-9);
-    block.run(ShiftingExchange{{block.mobility},
-                               particles.volume,
-                               particles.density,
-                               particles.velocity,
-                               shift,
-                               balance,
-                               density_rate,
-                               mass_rate,
-                               momentum_rate});
-    double total = 0.0, size = 0.0;
-    for (Index i = 0; i < particles.count(); ++i) {
-        total += mass_rate[i];
-        size += std::abs(mass_rate[i]);
+    for (Index i = 0; i < particles.count(); ++i)
+        enthalpy[i] = 1.0 + 0.1 * particles.position[i].x;
+    block.run(ShiftingExchange<true>{{block.mobility},
+                                     particles.volume,
+                                     particles.density,
+                                     particles.velocity,
+                                     shift,
+                                     balance,
+                                     &enthalpy,
+                                     density_rate,
+                                     mass_rate,
+                                     momentum_rate,
+                                     &energy_rate});
+    for (const ScalarField* rate : {&mass_rate, &energy_rate}) {
+        double total = 0.0, size = 0.0;
+        for (Index i = 0; i < particles.count(); ++i) {
+            total += (*rate)[i];
+            size += std::abs((*rate)[i]);
+        }
+        EXPECT_GT(size, 0.0);
+        EXPECT_LT(std::abs(total), 1e-12 * size);
     }
-    EXPECT_GT(size, 0.0);
-    EXPECT_LT(std::abs(total), 1e-12 * size);
 }
 
 TEST(EquationOfState, DensityAndPressureAreInverse)
