@@ -6,14 +6,37 @@
 #include "models/density_summation.hpp"
 #include "models/momentum.hpp"
 #include "models/viscous_traction.hpp"
+#include "models/wall_compression.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
 
+namespace
+{
+
+/// Σ W over a lattice, 1/m³: near 1/Δx³ and not quite.
+double lattice_number(const QuinticSpline& kernel, double spacing, int dimensions)
+{
+    const int reach = static_cast<int>(std::ceil(kernel.support() / spacing)), across = dimensions == 2 ? 0 : reach;
+    double sum = 0.0;
+    for (int x = -reach; x <= reach; ++x)
+        for (int y = -across; y <= across; ++y)
+            for (int z = -reach; z <= reach; ++z)
+                if (const double r = spacing * std::sqrt(x * x + y * y + z * z); r < kernel.support())
+                    sum += kernel(r).value;
+    return sum;
+}
+
+} // namespace
+
 TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), viscosity_(particles_.add_scalar({"viscosity", "Pa s"})),
+      liquid_number_(particles_.add_scalar({"wall_liquid_number", "1/m3"})),
+      liquid_number_at_start_(particles_.add_scalar({"wall_liquid_number_at_start", "1/m3"})),
+      wall_pressure_(particles_.add_scalar({"wall_pressure", "Pa"})),
+      transport_number_(particles_.add_scalar({"wall_transport_number", "1/(m3 s)"})),
+      wall_energy_(particles_.add_scalar({"wall_elastic_energy", "J"})),
       transport_rate_(particles_.add_scalar({"transport_rate", "m3/s"})),
-      imbalance_(particles_.add_scalar({"pressure_imbalance", "W"})),
       transport_velocity_(particles_.add_vector({"transport_velocity", "m/s"}))
 {
     double heaviest = 0.0;
@@ -27,6 +50,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     }
     if (most_viscous > least_viscosity_) stress_gradient_.emplace(VelocityGradientFields::register_in(particles_));
     if (temperature_gradient_ || stress_gradient_) correction_.emplace(CorrectionMatrix::register_in(particles_));
+    lattice_number_ = lattice_number(kernel_, scene.spacing, scene.dimensions);
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
     for (Index i = 0; i < particles_.count(); ++i)
@@ -72,26 +96,42 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
     });
     work.compression = time_step > 0.0 ? elastic() - before - work.density_diffusion : 0.0;
     books_ += work;
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_pressure(true, particles_.pressure),
-                  wall_velocity());
-    const double lattice_volume = scene_.particle_volume();
-    for (const Index c : neighbourhood.standing()) {
-        const Cluster cluster = list.cluster(c);
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (mobility_.weight[i] == 0.0)
-                particles_.volume[i] = lattice_volume / (1.0 + particles_.pressure[i] / stiffness_);
-    }
+    compress_walls(neighbourhood, time_step);
     if (surface_) {
         for_each_pair(list, particles_, kernel_, neighbourhood.moving(), surface_->colour_gradient());
         surface_->find(neighbourhood);
     }
     find_forces(neighbourhood);
-    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
-                            return imbalance_[moving[static_cast<std::size_t>(m)]];
-                        });
     add_up_forces(neighbourhood);
     find_load(neighbourhood);
     accelerate(neighbourhood);
+}
+
+/// Walls feel the liquid before them as liquid would; they have its extrapolated velocity, for viscosity.
+void TwoPhaseFlow::compress_walls(const Neighbourhood& neighbourhood, double time_step)
+{
+    const NeighbourList& list = neighbourhood.list();
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_velocity(),
+                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
+    const double lattice_volume = scene_.particle_volume();
+    double change = 0.0, transported = 0.0;
+    for (const Index c : neighbourhood.standing()) {
+        const Cluster cluster = list.cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
+            if (mobility_.weight[i] != 0.0) continue;
+            if (time_step == 0.0) liquid_number_at_start_[i] = liquid_number_[i];
+            const double crowding = lattice_volume * (lattice_number_ + liquid_number_[i] - liquid_number_at_start_[i]);
+            const double pressure = stiffness_ * (crowding - 1.0), volume = lattice_volume / crowding;
+            transported += time_step * 0.5 * (wall_pressure_[i] + pressure) * volume * volume * transport_number_[i];
+            particles_.volume[i] = volume;
+            particles_.pressure[i] = wall_pressure_[i] = pressure;
+            const double energy = stiffness_ * lattice_volume * EquationOfState{1.0}.elastic_energy(crowding, 1.0);
+            change += energy - wall_energy_[i];
+            wall_energy_[i] = energy;
+        }
+    }
+    // What motion, and not the transport of places, has done to walls.
+    books_.imbalance -= change - transported;
 }
 
 void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
@@ -99,9 +139,9 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
     const auto sum = [&](const auto&... terms) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
     };
-    const TwoPhaseMomentum momentum{mobility_,      particles_.volume,   particles_.density,    particles_.pressure,
-                                    viscosity_,     particles_.velocity, parameters_.transport, pressure_force_,
-                                    viscous_force_, imbalance_,          transport_velocity_};
+    const TwoPhaseMomentum momentum{mobility_,       particles_.volume,   particles_.pressure,
+                                    viscosity_,      particles_.velocity, parameters_.transport,
+                                    pressure_force_, viscous_force_,      transport_velocity_};
     if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
     start_artificial_force(neighbourhood);
     // What follows momentum adds to what it has just stored for the same cluster.

@@ -20,14 +20,20 @@ public:
     double elastic_energy(Index i) const override;
 
 private:
+    void compress_walls(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
 
     ScalarField& viscosity_;
-    ScalarField& transport_rate_; ///< rate of a volume by the transport velocity, m³/s
-    ScalarField& imbalance_;      ///< W
+    ScalarField& liquid_number_;          ///< that walls feel, 1/m³
+    ScalarField& liquid_number_at_start_; ///< 1/m³
+    ScalarField& wall_pressure_;          ///< as compression has it (an extrapolation writes over a wall's), Pa
+    ScalarField& transport_number_;       ///< rate of that number by the transport velocity, 1/(m³ s)
+    ScalarField& wall_energy_;            ///< J
+    ScalarField& transport_rate_;         ///< rate of a volume by the transport velocity, m³/s
     VectorField& transport_velocity_;
     std::optional<CorrectionMatrix> correction_;            ///< for Marangoni flow and the traction
     std::optional<VelocityGradientFields> stress_gradient_; ///< (μ − least μ) ∇v, Pa; only where viscosities differ
+    double lattice_number_;                                 ///< of particles in a volume, 1/m³
     double least_viscosity_;                                ///< Pa·s
     double stiffness_; ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };

@@ -27,10 +27,9 @@ struct MechanicalWork
     double surface = 0;    ///< tension, Marangoni stress, recoil, cohesion
     double artificial = 0; ///< artificial viscosity and stress
     double shifting = 0;   ///< what particles exchange when they are shifted: mass, momentum, density
-    double imbalance =
-        0;            ///< pressure that no compression answers: of walls and solids, and of the weights of two phases
-    double mush = 0;  ///< drag of the mushy zone
-    double stops = 0; ///< what is held before a wall, freezes or escapes
+    double imbalance = 0;  ///< pressure that no compression of liquid answers: of walls and solids
+    double mush = 0;       ///< drag of the mushy zone
+    double stops = 0;      ///< what is held before a wall, freezes or escapes
     // On compression
     double compression = 0;       ///< by the flow: takes what pressure gives
     double density_diffusion = 0; ///< or, in two phases, their transport velocity
