@@ -27,7 +27,6 @@ NUMERICS = {
     "height_functions": True,
     "curvature_smoothing_passes": 4,
     "curvature_averaging_passes": 1,
-    "mushy_drag_constant": 1e13,
     "momentum_predictor": True,
     "pressure_correctors": 2,
     "temperature_tolerance": 0.5,
@@ -195,8 +194,9 @@ def ambient_temperature(case: ResolvedCase) -> float:
 
 def _primary_entries(case: ResolvedCase) -> dict[str, Any]:
     known = ("density", "viscosity", "specific_heat", "specific_heat_solid", "conductivity", "conductivity_solid", "solidus",
-             "liquidus", "latent_heat", "surface_tension", "surface_tension_slope", "surface_tension_reference_temperature",
-             "surface_tension_minimum", "contact_angle", "boiling_temperature", "vaporization_heat", "molar_mass", "emissivity")
+             "liquidus", "latent_heat", "mushy_drag", "surface_tension", "surface_tension_slope",
+             "surface_tension_reference_temperature", "surface_tension_minimum", "contact_angle", "boiling_temperature",
+             "vaporization_heat", "molar_mass", "emissivity")
     entries = {"melts": "melting" in case.physics}
     entries |= {key: float(case.primary[key]) for key in known if key in case.primary}
     if not entries["melts"] and "specific_heat" in entries:

@@ -187,6 +187,8 @@ def _check_materials(case: ResolvedCase) -> None:
         if name is None:
             continue
         wanted = ["density"] + [key for model in case.physics for key in needs.get(model, ())]
+        if needs is NEEDS and {"flow", "melting"} <= set(case.physics):
+            wanted.append("mushy_drag")
         for key in wanted:
             _require(key in material, case, f"materials.{name}.{key}", "is missing, though physics needs it")
         for key in ("density", "specific_heat", "specific_heat_solid"):

@@ -12,6 +12,7 @@ QUANTITY_NAMES = {
     "profile_error": "Velocity profile, L2 error", "return_flow_profile_error": "Velocity profile, L2 error",
     "melt_pool_width": "Melt-pool width", "melt_pool_depth": "Melt-pool depth", "melt_pool_length": "Melt-pool length",
     "bead_height": "Bead height", "energy_closure": "Energy ledger, closure", "volume_closure": "Volume of each phase, change",
+    "mechanical_energy_closure": "Mechanical energy ledger, closure",
     "mass_closure": "Mass ledger, closure",
     "laser_absorbed_error": "Laser power absorbed, error", "width_growth_with_power": "Width grows with power",
     "run": "Run", "kept_result": "Kept result",

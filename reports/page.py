@@ -18,6 +18,7 @@ from cupel.results import kept_folder, write_whole
 from . import formatting
 from .colours import solver_colour
 from .formatting import grouped, memory, number, present, solver_name
+from .formulations import formulations_block
 from .gather import Case, Run, gather
 from .orders import orders_block
 from .pictures import group_views, kind_of, pictures_of, power_views
@@ -42,7 +43,7 @@ def write_page(root: Path, names: list[str] | None, variant: str) -> Path:
         "variant": variant, "made": datetime.datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z"), "version": __version__,
         "host": platform.node(), "style": (HERE / "style.css").read_text(),
         "cases": [case_block(case, pictures[case.name], root) for case in shown], "tiers": verified,
-        "orders": orders_block(root, cases),
+        "orders": orders_block(root, cases), "formulations": formulations_block(root, cases, variant),
         "tally": Counter(row.verdict for row in rows), "judged": sum(row.verdict != "none" for row in rows),
         "power": power_picture(cases), "power_rows": power_table(cases), "power_views": power_views(shown, pictures),
         "trends": [present(row) for row in trends],

@@ -16,6 +16,7 @@ PrimaryMaterial::PrimaryMaterial(const dictionary& entries)
       conductivity_liquid(entries.getOrDefault<scalar>("conductivity", 0)),
       solidus(entries.getOrDefault<scalar>("solidus", 0)), liquidus(entries.getOrDefault<scalar>("liquidus", 0)),
       latent_heat(entries.getOrDefault<scalar>("latent_heat", 0)),
+      mushy_drag(entries.getOrDefault<scalar>("mushy_drag", 0)),
       surface_tension_at_reference(entries.getOrDefault<scalar>("surface_tension", 0)),
       surface_tension_slope(entries.getOrDefault<scalar>("surface_tension_slope", 0)),
       surface_tension_reference_temperature(entries.getOrDefault<scalar>("surface_tension_reference_temperature", 0)),

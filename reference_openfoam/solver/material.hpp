@@ -19,6 +19,7 @@ struct PrimaryMaterial
     bool melts;
     scalar specific_heat_solid, specific_heat_liquid, conductivity_solid, conductivity_liquid;
     scalar solidus, liquidus, latent_heat;
+    scalar mushy_drag; // constant of the drag on the mush, kg/(m³·s)
     scalar surface_tension_at_reference, surface_tension_slope, surface_tension_reference_temperature,
         surface_tension_minimum;
     scalar contact_angle;

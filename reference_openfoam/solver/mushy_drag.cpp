@@ -5,7 +5,7 @@ namespace cupel
 tmp<volScalarField> mushy_drag(const Scene& scene, const Fields& fields)
 {
     const PrimaryMaterial& primary = scene.primary;
-    const scalar constant = scene.numerics.get<scalar>("mushy_drag_constant");
+    const scalar constant = primary.mushy_drag;
     const volScalarField drag("drag", map_field(fields.heat->temperature, "drag", dimDensity / dimTime,
                                                 [&primary, constant](scalar temperature) {
                                                     const scalar liquid = primary.liquid_fraction(temperature);

@@ -3,7 +3,7 @@
 ///
 ///   F = −K u,     K = C α (1 − f_l)²/(f_l³ + ε)     [kg/(m³·s)],     ε = 1e-3
 ///
-/// C is at least 1e13 kg/(m³·s): with less, cold powder creeps.
+/// C is the material's `mushy_drag`; much below 1e13 kg/(m³·s) cold powder creeps.
 #pragma once
 
 #include "fields.hpp"

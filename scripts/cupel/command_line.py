@@ -17,6 +17,7 @@ from . import testing
 from .comparison import fill_solver_references
 from .display import make_display
 from .errors import CupelError
+from .formulations import DEFAULT, FORMULATIONS, overrides_of, variant_of
 from .jobs import Job
 from .layout import LEVELS, SOLVERS, TIERS, ResultPlace, places, results_root
 from .runner import Runner
@@ -28,6 +29,7 @@ app = typer.Typer(
 
 Level = Enum("Level", {level: level for level in LEVELS}, type=str)
 Tier = Enum("Tier", {tier: tier for tier in TIERS}, type=str)
+Formulation = Enum("Formulation", {name: name for name in FORMULATIONS}, type=str)
 Solver = Enum("Solver", {name: name for name in (*SOLVERS, "both", "external")}, type=str)
 
 CASES = typer.Argument(None, metavar="[CASE]...",
@@ -37,6 +39,7 @@ LEVEL = typer.Option(Level.coarse, help="How fine: what it means is in each case
 SOLVER = typer.Option(Solver.both, help="Which solver.")
 RESULTS = typer.Option(None, "--results", metavar="DIR", help="Folder of results; default: results in the repository.")
 QUIET = typer.Option(False, "--quiet", help="Only a line when a run starts and when it ends.")
+FORMULATION = typer.Option(DEFAULT, help="Set of SPH numerics; results go to the variant LEVEL-FORMULATION, beside the default ones.")
 VARIANT = typer.Option(None, metavar="NAME", help="Name of the variant; default: the level, with a tag for --set.")
 
 
@@ -46,6 +49,7 @@ def run(
     level: Level = LEVEL,
     tier: Optional[Tier] = TIER,
     solver: Solver = SOLVER,
+    formulation: Formulation = FORMULATION,
     resume: bool = typer.Option(False, "--resume", help="Go on: keep finished runs, continue from checkpoints."),
     quiet: bool = QUIET,
     jobs: Optional[int] = typer.Option(None, min=1, help="Runs side by side; default: one a core."),
@@ -64,11 +68,11 @@ def run(
         count = take_in(external, root)
         print(f"{count} results taken in from {external}", file=sys.stderr)
         return write_report(root) if report else 0
-    overrides = list(overrides or [])
-    variant = variant_name(level.value, overrides, variant)
+    variant = variant_name(variant_of(level.value, formulation.value), list(overrides or []), variant)
+    overrides = overrides_of(formulation.value) + list(overrides or [])
     chosen = case_files.select_members(names, tier and tier.value, level.value)
     resolved = [member.resolve(level.value, overrides) for member in chosen]
-    solvers = SOLVERS if solver is Solver.both else (solver.value,)
+    solvers = solvers_of(solver, formulation)
     cores = len(os.sched_getaffinity(0))
     slots = min(jobs or cores, len(resolved) * len(solvers))
     work = [
@@ -83,7 +87,8 @@ def run(
         return 130
     bad = [job for job in work if not job.good]
     if report:
-        write_report(root, [job.place.case for job in work] + [place.case for place in places(root, variants=[variant])], variant)
+        shown = variant if formulation.value == DEFAULT else level.value   # formulations stand beside the default
+        write_report(root, [job.place.case for job in work] + [place.case for place in places(root, variants=[shown])], shown)
     if bad:
         raise CupelError(f"{len(bad)} of {len(work)} runs did not complete: {', '.join(str(job.place) for job in bad)}")
     return 0
@@ -101,6 +106,7 @@ def check(
     level: Level = LEVEL,
     tier: Optional[Tier] = TIER,
     solver: Solver = SOLVER,
+    formulation: Formulation = FORMULATION,
     variant: Optional[str] = VARIANT,
     results: Optional[Path] = RESULTS,
     junit: Optional[Path] = typer.Option(None, metavar="FILE", help="JUnit XML; default: check.xml in the results folder."),
@@ -110,8 +116,8 @@ def check(
 
     root = results_root(results)
     wanted = [member.name for member in case_files.select_members(names, tier and tier.value, level.value)]
-    solvers = SOLVERS if solver is Solver.both else (solver.value,)
-    return check_results(root, wanted, solvers, variant or level.value, junit or root / "check.xml")
+    solvers = solvers_of(solver, formulation)
+    return check_results(root, wanted, solvers, variant or variant_of(level.value, formulation.value), junit or root / "check.xml")
 
 
 @app.command()
@@ -120,6 +126,7 @@ def keep(
     level: Level = LEVEL,
     tier: Optional[Tier] = TIER,
     solver: Solver = SOLVER,
+    formulation: Formulation = FORMULATION,
     results: Optional[Path] = RESULTS,
 ) -> int:
     """Keep completed results as data beside their cases, for what is too long to run each time."""
@@ -128,8 +135,8 @@ def keep(
     if not names and tier is None:
         raise CupelError("name the cases to keep, or give --tier", status=2)
     chosen = case_files.select_members(names, tier and tier.value, level.value)
-    solvers = SOLVERS if solver is Solver.both else (solver.value,)
-    for folder in keep_results(results_root(results), chosen, solvers, level.value):
+    solvers = solvers_of(solver, formulation)
+    for folder in keep_results(results_root(results), chosen, solvers, level.value, formulation.value):
         print(folder)
     return 0
 
@@ -186,6 +193,13 @@ def schema(
 
     print(SCHEMA_FILE.read_text().rstrip() if of_result else case_files.case_schema().rstrip())
     return 0
+
+
+def solvers_of(solver: Solver, formulation: Formulation) -> tuple[str, ...]:
+    """The solvers that are meant; a formulation is one of SPH's, and the reference has none."""
+    if formulation.value != DEFAULT and solver is not Solver.sph:
+        raise CupelError("--formulation is for SPH: give --solver sph", status=2)
+    return SOLVERS if solver is Solver.both else (solver.value,)
 
 
 def variant_name(level: str, overrides: list[str], choice: str | None) -> str:

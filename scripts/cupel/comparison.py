@@ -16,6 +16,8 @@ from .results import finite, read_kept, read_result, write_result
 LEDGER_LIMITS = (
     ("energy", "closure", "energy_closure", {"sph": 1e-3, "openfoam": 1e-5},
      "stored energy against what came in and went out"),
+    ("mechanical_energy", "closure", "mechanical_energy_closure", {"sph": 1e-3},
+     "kinetic and elastic energy against the work of every force, remedy and limiter"),
     ("energy", "absorbed_error", "laser_absorbed_error", {"sph": 1e-3, "openfoam": 1e-3},
      "absorbed power against A·P of what the beam hits"),
 )

@@ -1,6 +1,6 @@
 """Kept results: what is too long to run each time, kept as data beside its case.
 
-    validation_cases/CASE/kept/[VARIATION/]SOLVER/LEVEL/result.json and series.csv
+    validation_cases/CASE/kept/[VARIATION/]SOLVER/LEVEL[-FORMULATION]/result.json and series.csv
 
 `./cupel keep` is the only way in; it refuses what could not be made again from the repository. What is kept stands in for a result that
 has not been run, is judged like one, and is what a fresh one is compared with (the model-regression check).
@@ -17,6 +17,7 @@ from pathlib import Path
 from .cases import Member, find_members
 from .comparison import Row
 from .errors import CupelError, describe_system_error
+from .formulations import DEFAULT, overrides_of, parts_of, variant_of
 from .layout import ROOT, ResultPlace
 from .results import check_result, read_kept, read_result, write_json
 
@@ -34,27 +35,31 @@ SHARE_OF_TOLERANCE = 0.1
 SHARE_OF_VALUE = 0.01
 
 
-def keep(root: Path, members: list[Member], solvers: tuple[str, ...], level: str) -> list[Path]:
-    """Keeps the results of `members` at `level`; returns their folders. All are checked before any is kept.
+def keep(root: Path, members: list[Member], solvers: tuple[str, ...], level: str, formulation: str = DEFAULT) -> list[Path]:
+    """Keeps the results of `members` at `level` in a formulation; returns their folders. All are checked before any is kept.
 
     Raises `CupelError`, one line, for a result that is missing, not completed, of changed sources, or not of the case as it is now.
     """
-    chosen = []
+    chosen, variant = [], variant_of(level, formulation)
     for member in members:
-        present = member.resolve(level)["hash"]
+        present = member.resolve(level, *_overrides(formulation))["hash"]
         for solver in solvers:
-            place = ResultPlace(root, member.name, solver, level)
-            chosen.append((place, _fit_to_keep(place, present), member.kept / solver / level))
+            place = ResultPlace(root, member.name, solver, variant)
+            chosen.append((place, _fit_to_keep(place, present), member.kept / solver / variant))
     for place, result, folder in chosen:
         _store(place, result, folder)
     return [folder for _, _, folder in chosen]
+
+
+def _overrides(formulation: str) -> tuple[list[str], ...]:
+    return () if formulation == DEFAULT else (overrides_of(formulation),)
 
 
 def _fit_to_keep(place: ResultPlace, present_hash: str) -> dict:
     """The result at `place` if it may be kept."""
     result = read_result(place)
     if result is None:
-        raise CupelError(f"{place}: no result to keep; run it first: ./cupel run {place.case} --solver {place.solver} --level {place.variant}")
+        raise CupelError(f"{place}: no result to keep; run it first: ./cupel run {place.case} --solver {place.solver} {_options_of(place.variant)}")
     if result["status"] != "completed":
         raise CupelError(f"{place}: {result['status']}, not completed: {result['diagnosis']}; only completed results are kept")
     commit = result["code"]["commit"]
@@ -66,6 +71,11 @@ def _fit_to_keep(place: ResultPlace, present_hash: str) -> dict:
     if result["settings"]["hash"] != present_hash:
         raise CupelError(f"{place}: the case file resolves to something else now (its hash differs); run it again")
     return result
+
+
+def _options_of(variant: str) -> str:
+    level, formulation = parts_of(variant) or (variant, DEFAULT)
+    return f"--level {level}" + ("" if formulation == DEFAULT else f" --formulation {formulation}")
 
 
 def _store(place: ResultPlace, result: dict, folder: Path) -> None:
@@ -127,10 +137,14 @@ def age(result: dict) -> str:
     return ", ".join(parts)
 
 
-def present_hash(case: str, level: str) -> str | None:
-    """Hash of the case as its file resolves now; None where that cannot be told (no such case or level, no build)."""
+def present_hash(case: str, variant: str) -> str | None:
+    """Hash of the case as its file resolves now; None where that cannot be told (no such case or variant, no build)."""
+    parts = parts_of(variant)
+    if parts is None:
+        return None
+    level, formulation = parts
     try:
-        return find_members(case)[0].resolve(level)["hash"]
+        return find_members(case)[0].resolve(level, *_overrides(formulation))["hash"]
     except CupelError:
         return None
 

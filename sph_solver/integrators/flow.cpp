@@ -29,7 +29,9 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     : scene_(scene), particles_(*scene.particles), parameters_(parameters),
       kernel_(parameters.smoothing_length, scene.dimensions), mobility_{mobility},
       gravity_{scene.definition.gravity[0], scene.definition.gravity[1], scene.definition.gravity[2]},
-      force_(particles_.add_vector({"force", "N"})), acceleration_(particles_.add_vector({"acceleration", "m/s2"})),
+      force_(particles_.add_vector({"force", "N"})), pressure_force_(particles_.add_vector({"pressure_force", "N"})),
+      viscous_force_(particles_.add_vector({"viscous_force", "N"})),
+      acceleration_(particles_.add_vector({"acceleration", "m/s2"})), excess_pressure_(&particles_.pressure),
       tension_(surface_tension_law(scene.materials.front())),
       with_tension_(scene.definition.requires_physics("surface_tension")),
       with_marangoni_(scene.definition.requires_physics("marangoni")),
@@ -49,10 +51,18 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
                             metal.vaporization_heat.value(), metal.molar_mass.value()};
     }
     if (particles_.has("temperature")) temperature_ = &particles_.scalar("temperature");
+    const Numerics& numerics = scene.definition.numerics;
+    if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0 ||
+        numerics.artificial_stress > 0.0)
+        artificial_force_ = &particles_.add_vector({"artificial_force", "N"});
     if (temperature_ && (with_tension_ || with_recoil_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (with_tension_ || with_recoil_) {
         load_ = &particles_.add_scalar({"surface_load", "Pa"});
+        // The contact angle is a curvature of the size of 1/Δx at the contact line, which takes a force in the band.
+        band_bears_load_ = scene.two_phase || scene.definition.requires_physics("wetting");
+    }
+    if (band_bears_load_) {
         mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
         load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
     }
@@ -63,7 +73,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
+WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
 {
     const bool walls = particles_.has("wall_normal");
     return {mobility_,
@@ -75,22 +85,61 @@ WallExtrapolation Flow::wall_extrapolation(bool walls_may_pull)
             walls ? &particles_.scalar("wall_free_slip") : nullptr,
             walls ? &particles_.scalar("wall_depth") : nullptr,
             particles_.has("wall_velocity") ? &particles_.vector("wall_velocity") : nullptr,
-            particles_.pressure,
+            carried_load,
+            pressure,
             particles_.velocity};
 }
 
-void Flow::add_remedies(const Neighbourhood& neighbourhood)
+void Flow::add_up_forces(const Neighbourhood& neighbourhood)
 {
     const Numerics& numerics = scene_.definition.numerics;
+    if (artificial_force_) neighbourhood.for_each_moving([&](Index i) { artificial_force_->set(i, {}); });
     if (numerics.artificial_viscosity > 0.0 || numerics.artificial_viscosity_beta > 0.0)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       ArtificialViscosity{mobility_, numerics.artificial_viscosity, numerics.artificial_viscosity_beta,
                                           parameters_.equation_of_state.sound_speed, parameters_.smoothing_length,
-                                          particles_.mass, particles_.density, particles_.velocity, force_});
+                                          particles_.mass, particles_.density, particles_.velocity,
+                                          *artificial_force_});
     if (numerics.artificial_stress > 0.0)
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                       ArtificialStress{mobility_, numerics.artificial_stress, kernel_(scene_.spacing).value,
-                                       particles_.mass, particles_.density, particles_.pressure, force_});
+                                       particles_.mass, particles_.density, *excess_pressure_, *artificial_force_});
+    neighbourhood.for_each_moving([&](Index i) {
+        Vector force = pressure_force_[i] + viscous_force_[i];
+        if (artificial_force_) force += (*artificial_force_)[i];
+        if (shifting_force_) force += (*shifting_force_)[i];
+        force_.set(i, force);
+    });
+}
+
+MechanicalWork Flow::work(Index i, const Vector& mean_velocity, double time_step) const
+{
+    const Vector path = time_step * mean_velocity;
+    MechanicalWork work;
+    work.pressure = dot(pressure_force_[i], path);
+    work.viscosity = dot(viscous_force_[i], path);
+    work.gravity = particles_.mass[i] * dot(gravity_, path);
+    if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
+    if (shifting_force_) work.shifting = dot((*shifting_force_)[i], path);
+    work.surface = particles_.mass[i] * dot(acceleration_[i], path) - work.pressure - work.viscosity - work.gravity -
+                   work.artificial - work.shifting;
+    return work;
+}
+
+double Flow::elastic_energy(Index i) const
+{
+    const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
+    return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest);
+}
+
+double Flow::mechanical_energy(const Neighbourhood& neighbourhood) const
+{
+    const auto& moving = neighbourhood.moving_particles();
+    return ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+        const Index i = moving[static_cast<std::size_t>(m)];
+        const Vector v = particles_.velocity[i];
+        return particles_.mass[i] * (0.5 * dot(v, v) + elastic_energy(i));
+    });
 }
 
 void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
@@ -131,6 +180,11 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
 
 void Flow::find_load(const Neighbourhood& neighbourhood)
 {
+    if (!load_) return;
+    if (mean_temperature_)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
+                                         surface_->fields().delta, *mean_temperature_});
     const SurfaceFields& surface = surface_->fields();
     neighbourhood.for_each_moving([&](Index i) {
         double load = 0.0;
@@ -142,17 +196,13 @@ void Flow::find_load(const Neighbourhood& neighbourhood)
         }
         (*load_)[i] = load;
     });
+    if (!band_bears_load_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
-    if (mean_temperature_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      SurfaceTemperature{mobility_, particles_.volume, *temperature_, particles_.kind,
-                                         surface_->fields().delta, *mean_temperature_});
-    if (load_) find_load(neighbourhood);
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         if (surface_ && surface_->fields().delta[i] > 0.0) {
@@ -160,7 +210,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (load_)
+            if (band_bears_load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
             if (with_marangoni_)

@@ -7,6 +7,7 @@
 #include "integrators/neighbourhood.hpp"
 #include "integrators/parameters.hpp"
 #include "integrators/surface_tracker.hpp"
+#include "ledgers/mechanical_work.hpp"
 #include "models/gradient_correction.hpp"
 #include "models/surface_forces.hpp"
 #include "models/vapour_pressure.hpp"
@@ -35,6 +36,14 @@ public:
     }
 
     const VectorField& acceleration() const { return acceleration_; }
+    /// Work of a kick on particle i, whose velocity is `mean` on the average of it, by cause, J.
+    MechanicalWork work(Index i, const Vector& mean_velocity, double time_step) const;
+    /// e of a particle, J/kg.
+    virtual double elastic_energy(Index i) const;
+    /// ½ m v² + m e of all that moves, J.
+    double mechanical_energy(const Neighbourhood& neighbourhood) const;
+    MechanicalWork& books() { return books_; }
+    const MechanicalWork& books() const { return books_; }
     /// Null where the scene has no force on the surface.
     const SurfaceTracker* surface() const { return surface_.get(); }
     const FlowParameters& parameters() const { return parameters_; }
@@ -43,13 +52,16 @@ protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
     /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
-    WallExtrapolation wall_extrapolation(bool walls_may_pull);
-    /// Adds the optional pair forces that the case switches on to force_.
-    void add_remedies(const Neighbourhood& neighbourhood);
+    WallExtrapolation wall_extrapolation(bool walls_may_pull, ScalarField& pressure,
+                                         ScalarField* carried_load = nullptr);
+    /// force_ ← pressure and viscosity, the optional pair forces that the case switches on, and what shifting carries.
+    void add_up_forces(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
     void add_cohesion(const Neighbourhood& neighbourhood);
+    /// What presses on the surface.
+    void find_load(const Neighbourhood& neighbourhood);
     /// acceleration ← force/m + g + surface forces/ρ; needs the gradient of temperature.
     void accelerate(const Neighbourhood& neighbourhood);
 
@@ -59,10 +71,18 @@ protected:
     QuinticSpline kernel_;
     Mobility mobility_;
     Vector gravity_;
-    VectorField& force_;
+    VectorField& force_; ///< of all pairs
+    VectorField& pressure_force_;
+    VectorField& viscous_force_;
+    VectorField* artificial_force_ = nullptr; ///< only where a case switches such forces on
+    VectorField* shifting_force_ = nullptr;   ///< momentum that shifting carries
     VectorField& acceleration_;
+    MechanicalWork books_;
     std::unique_ptr<SurfaceTracker> surface_;
 
+    /// What the equation of state says of the density, which acts between particles. It is the pressure but where the
+    /// load on the surface is carried into the liquid: there pressure is the sum of both.
+    ScalarField* excess_pressure_;
     ScalarField* temperature_ = nullptr;
     /// ½(ρ₁ + ρ₂) of two phases, kg/m³; 0 with one. Surface forces there have the weight 2ρ_i/(ρ₁ + ρ₂) (Brackbill,
     /// Kothe, Zemach 1992, eq. 31), whose mean over the band is one: both phases are driven alike, and what is uneven
@@ -70,15 +90,15 @@ protected:
     double mean_density_ = 0.0;
     VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
 
-private:
-    /// What presses on the surface, and how it changes along it.
-    void find_load(const Neighbourhood& neighbourhood);
+    ScalarField* load_ = nullptr; ///< L, Pa; only where tension or recoil presses on a surface
+    /// Whether the surface's band bears the load as a continuum surface force. Else it is carried into the liquid.
+    bool band_bears_load_ = false;
 
+private:
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
-    ScalarField* load_ = nullptr;      ///< only where tension or recoil presses on a surface
-    ScalarField* mean_load_ = nullptr; ///< only where that surface is free
+    ScalarField* mean_load_ = nullptr; ///< only where the band bears the load
     VectorField* load_gradient_ = nullptr;
     ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
     double bonds_ = 0.0;

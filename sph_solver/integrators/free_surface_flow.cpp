@@ -9,6 +9,7 @@
 #include "models/enthalpy_exchange.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
+#include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -18,13 +19,23 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
     : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
       velocity_gradient_(VelocityGradientFields::register_in(particles_)),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
-      rest_density_(scene.materials.front().density)
+      wall_power_(particles_.add_scalar({"wall_power", "W"})), rest_density_(scene.materials.front().density)
 {
-    if (scene.definition.numerics.density_diffusion > 0.0)
+    if (load_ && !band_bears_load_) {
+        excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
+        replaced_rate_ = &particles_.add_scalar({"replaced_density_rate", "kg/(m3 s)"});
+        carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
+        carried_mean_ = &particles_.add_scalar({"carried_load_mean", "Pa"});
+        carried_gradient_ = &particles_.add_vector({"carried_load_gradient", "Pa/m"});
+    }
+    if (scene.definition.numerics.density_diffusion > 0.0) {
         density_gradient_ = &particles_.add_vector({"density_gradient", "kg/m4"});
+        diffusion_rate_ = &particles_.add_scalar({"density_diffusion_rate", "kg/(m3 s)"});
+    }
     if (scene.definition.numerics.shifting > 0.0) {
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
-        shift_momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
+        shifting_force_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
+        shifting_density_rate_ = &particles_.add_scalar({"shifting_density_rate", "kg/(m3 s)"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
         if (particles_.has("enthalpy")) {
@@ -46,7 +57,7 @@ void FreeSurfaceFlow::start_hydrostatic()
     for (Index i = 0; i < particles_.count(); ++i)
         if (mobility_.weight[i] != 0.0) {
             const double weight = -rest_density_ * gravity_.z * (surface - particles_.position[i].z);
-            particles_.pressure[i] = weight;
+            particles_.pressure[i] = (*excess_pressure_)[i] = weight;
             particles_.density[i] = parameters_.equation_of_state.density(weight, rest_density_);
             particles_.volume[i] = particles_.mass[i] / particles_.density[i];
         }
@@ -65,6 +76,7 @@ void FreeSurfaceFlow::reset(Index place)
 {
     Flow::reset(place);
     velocity_gradient_.reset(place);
+    (*excess_pressure_)[place] = 0.0;
     if (!shift_) return;
     shift_->set(place, {});
     // Walls and solids have the mass that they started with or froze with, and no say in it.
@@ -75,25 +87,30 @@ void FreeSurfaceFlow::reset(Index place)
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const auto& clusters = neighbourhood.moving();
-    const Continuity continuity{mobility_, particles_.volume, particles_.density, particles_.velocity, density_rate_};
     const VelocityGradient gradient{mobility_, particles_.volume, particles_.velocity, correction_, velocity_gradient_};
+    // It reads what the gradient has just stored for the same cluster.
+    const Continuity continuity{mobility_,          particles_.volume,
+                                particles_.density, particles_.velocity,
+                                velocity_gradient_, carried_load_ ? &surface_->fields().delta : nullptr,
+                                density_rate_,      replaced_rate_};
     const auto sum = [&](const auto&... exchanges) {
         if (!density_gradient_)
-            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
+            return for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
                                  exchanges...);
         const double diffusivity = scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                                    parameters_.equation_of_state.sound_speed;
-        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, continuity, gradient,
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters, gradient, continuity,
                       DensityDiffusion{mobility_, particles_.volume, particles_.density, *density_gradient_,
-                                       diffusivity, density_rate_},
+                                       diffusivity, *diffusion_rate_},
                       exchanges...);
     };
     if (!shift_) return sum();
     const double lattice_mass = rest_density_ * scene_.particle_volume();
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
-    const ShiftingExchange exchange{mobility_, particles_.volume, particles_.density, particles_.velocity,  *shift_,
-                                    *balance_, density_rate_,     *mass_rate_,        *shift_momentum_rate_};
+    const ShiftingExchange exchange{mobility_,       particles_.volume, particles_.density,      particles_.velocity,
+                                    *shift_,         *balance_,         *shifting_density_rate_, *mass_rate_,
+                                    *shifting_force_};
     if (!enthalpy_) return sum(exchange);
     sum(exchange, EnthalpyExchange{mobility_, particles_.volume, particles_.density, *enthalpy_, *shift_, *balance_,
                                    *energy_rate_});
@@ -122,11 +139,45 @@ void FreeSurfaceFlow::sum_over_places(const Neighbourhood& neighbourhood)
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
 {
-    for (const Index i : neighbourhood.moving_particles()) {
-        const double mass = particles_.mass[i] + time_step * (*mass_rate_)[i];
+    const auto& moving = neighbourhood.moving_particles();
+    books_.shifting += ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+        const Index i = moving[static_cast<std::size_t>(m)];
+        const double gain = time_step * (*mass_rate_)[i], mass = particles_.mass[i] + gain;
         if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
         particles_.mass[i] = mass;
-    }
+        const Vector v = particles_.velocity[i];
+        return gain * (0.5 * dot(v, v) + elastic_energy(i));
+    });
+}
+
+/// Densities from their rates, and with them volumes and pressures.
+MechanicalWork FreeSurfaceFlow::compress(Index i, double time_step)
+{
+    // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
+    // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
+    // densities went.
+    constexpr double limit = 0.05;
+    const double before = elastic_energy(i);
+    const double rates = density_rate_[i] + (diffusion_rate_ ? (*diffusion_rate_)[i] : 0.0) +
+                         (shifting_density_rate_ ? (*shifting_density_rate_)[i] : 0.0);
+    particles_.density[i] += time_step * rates;
+    const double compressed = elastic_energy(i);
+    // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
+    if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
+    particles_.density[i] =
+        std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
+    particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+    (*excess_pressure_)[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
+
+    MechanicalWork work;
+    const double change = rates != 0.0 ? particles_.mass[i] * (compressed - before) / rates : 0.0;
+    const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
+    work.compression = change * (density_rate_[i] - replaced);
+    work.imbalance = change * replaced;
+    if (diffusion_rate_) work.density_diffusion = change * (*diffusion_rate_)[i];
+    if (shifting_density_rate_) work.shifting = change * (*shifting_density_rate_)[i];
+    work.limiter = particles_.mass[i] * (elastic_energy(i) - compressed);
+    return work;
 }
 
 /// Forces between particles, and in the same pass the shifting velocity of the next drift and the gradient that drives
@@ -135,12 +186,15 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 {
     const FreeSurfaceMomentum momentum{mobility_,
                                        particles_.volume,
-                                       particles_.pressure,
+                                       *excess_pressure_,
                                        particles_.velocity,
                                        scene_.materials.front().viscosity.value(),
-                                       force_};
+                                       pressure_force_,
+                                       viscous_force_,
+                                       wall_power_};
     // The second adds to what the first has just stored for the same cluster.
-    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity, force_};
+    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity,
+                                   viscous_force_};
     const auto sum = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
@@ -158,10 +212,39 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
             rest_density_ * scene_.particle_volume(), surface_->fields().companions, surface_->fewest_companions(),
             &surface_->fields().colour_gradient, *shift_});
     }
-    for (const Index i : neighbourhood.moving_particles()) {
-        if (shift_) force_.set(i, force_[i] + (*shift_momentum_rate_)[i]);
-        if (temperature_gradient_) temperature_gradient_->set(i, correction_[i] * (*temperature_gradient_)[i]);
+    if (!temperature_gradient_) return;
+    for (const Index i : neighbourhood.moving_particles())
+        temperature_gradient_->set(i, correction_[i] * (*temperature_gradient_)[i]);
+}
+
+/// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
+/// its mean over the surface everywhere.
+void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_start)
+{
+    const SurfaceFields& surface = surface_->fields();
+    const double h = parameters_.smoothing_length;
+    if (at_start) {
+        double sum = 0.0, weight = 0.0;
+        for (const Index i : neighbourhood.moving_particles()) {
+            const double share = share_of_surface(surface, i, h);
+            sum += share * (*load_)[i];
+            weight += share;
+        }
+        for (const Index i : neighbourhood.moving_particles())
+            (*carried_mean_)[i] = weight > 0.0 ? sum / weight : 0.0;
     }
+    neighbourhood.for_each_moving([&](Index i) {
+        const double share = share_of_surface(surface, i, h);
+        const double at_depth = (*load_)[i] - surface.depth[i] * dot((*carried_gradient_)[i], surface.normal[i]);
+        (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
+    });
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+        SurfacePressure{mobility_, particles_.volume, correction_, *carried_load_, *carried_mean_, *carried_gradient_});
+    neighbourhood.for_each_moving([&](Index i) {
+        force_.set(i, force_[i] - particles_.volume[i] * (*carried_gradient_)[i]);
+        particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
+    });
 }
 
 /// Walls and solids as the liquid before them sees them: their pressure, and from it their volume, their velocity and
@@ -169,14 +252,15 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
 template <class... Others>
 void FreeSurfaceFlow::extrapolate_to_walls(const Neighbourhood& neighbourhood, const Others&... others)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_extrapolation(false),
-                  others...);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
+                  wall_extrapolation(false, *excess_pressure_, carried_load_), others...);
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
             if (mobility_.weight[i] == 0.0) {
-                particles_.density[i] = parameters_.equation_of_state.density(particles_.pressure[i], rest_density_);
+                particles_.density[i] = parameters_.equation_of_state.density((*excess_pressure_)[i], rest_density_);
                 particles_.volume[i] = particles_.mass[i] / particles_.density[i];
+                if (carried_load_) particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
             }
     }
 }
@@ -189,27 +273,22 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
         extrapolate_to_walls(neighbourhood);
     sum_over_places(neighbourhood);
 
-    // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
-    // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
-    // densities went.
-    constexpr double limit = 0.05;
     find_rates(neighbourhood);
     if (shift_) exchange_mass(neighbourhood, time_step);
-    neighbourhood.for_each_moving([&](Index i) {
-        particles_.density[i] += time_step * density_rate_[i];
-        // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
-        if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
-        particles_.density[i] =
-            std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
-        particles_.volume[i] = particles_.mass[i] / particles_.density[i];
-        particles_.pressure[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
-    });
+    const auto& moving = neighbourhood.moving_particles();
+    books_ += ordered_sum(static_cast<Index>(moving.size()),
+                          [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], time_step); });
     extrapolate_to_walls(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);
-    add_remedies(neighbourhood);
+    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+                            return wall_power_[moving[static_cast<std::size_t>(m)]];
+                        });
+    add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
+    find_load(neighbourhood);
+    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
     accelerate(neighbourhood);
 }
 

@@ -54,7 +54,10 @@ Simulation::Simulation(Scene scene)
         set_frozen_temperature();
     }
     if (has_heat_) heat_ = std::make_unique<ThermalStep>(scene_);
-    if (melts_) liquid_fraction_ = &particles.scalar("liquid_fraction");
+    if (melts_) {
+        liquid_fraction_ = &particles.scalar("liquid_fraction");
+        mushy_drag_.constant = scene_.materials.front().mushy_drag.value_or(0.0); // needed where the melt flows
+    }
     for (Index i = 0; i < particles.count(); ++i)
         mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
     if (!has_flow_) return;
@@ -86,7 +89,16 @@ Simulation::Simulation(Scene scene)
 void Simulation::start()
 {
     neighbourhood_.rebuild(*scene_.particles, mobility_);
-    if (flow_) flow_->evaluate(neighbourhood_, 0.0);
+    if (!flow_) return;
+    flow_->evaluate(neighbourhood_, 0.0);
+    // Two phases find their densities only now: the books begin with them.
+    flow_->books() = {};
+    mechanical_energy_at_start_ = flow_->mechanical_energy(neighbourhood_);
+}
+
+Ledger Simulation::mechanical_ledger() const
+{
+    return flow_->books().ledger(mechanical_energy_at_start_, flow_->mechanical_energy(neighbourhood_));
 }
 
 void Simulation::settle()
@@ -148,13 +160,27 @@ void Simulation::kick(double time_step)
 {
     Particles& particles = *scene_.particles;
     const VectorField& acceleration = flow_->acceleration();
-    neighbourhood_.for_each_moving([&](Index i) {
-        Vector velocity = particles.velocity[i] + time_step * acceleration[i];
+    flow_->books() += sum_over_moving([&](Index i) {
+        const Vector before = particles.velocity[i], change = time_step * acceleration[i];
+        Vector velocity = before + change;
+        MechanicalWork work = flow_->work(i, before + 0.5 * change, time_step);
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
-        if (melts_ && (*liquid_fraction_)[i] < 1.0)
-            velocity = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], time_step) * velocity;
+        if (melts_ && (*liquid_fraction_)[i] < 1.0) {
+            const double factor = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], time_step);
+            work.mush = 0.5 * particles.mass[i] * (factor * factor - 1.0) * dot(velocity, velocity);
+            velocity = factor * velocity;
+        }
         particles.velocity.set(i, velocity);
+        return work;
     });
+}
+
+/// What stops takes its mechanical energy out of the flow, J.
+double Simulation::energy_of_what_stops(Index i) const
+{
+    const Particles& particles = *scene_.particles;
+    const Vector v = particles.velocity[i];
+    return particles.mass[i] * (0.5 * dot(v, v) + flow_->elastic_energy(i));
 }
 
 bool Simulation::outside(const Vector& p) const
@@ -168,6 +194,7 @@ void Simulation::hold_before_walls()
 {
     Particles& particles = *scene_.particles;
     const auto hold = [](double& x, double& v, double least, double most) {
+        const double before = v;
         if (x < least) {
             x = least;
             v = std::max(v, 0.0);
@@ -176,12 +203,14 @@ void Simulation::hold_before_walls()
             x = most;
             v = std::min(v, 0.0);
         }
+        return v * v - before * before;
     };
-    neighbourhood_.for_each_moving([&](Index i) {
+    flow_->books().stops += sum_over_moving([&](Index i) {
         const auto k = static_cast<std::size_t>(i);
-        hold(particles.position.x[k], particles.velocity.x[k], wall_lower_.x, wall_upper_.x);
-        hold(particles.position.y[k], particles.velocity.y[k], wall_lower_.y, wall_upper_.y);
-        hold(particles.position.z[k], particles.velocity.z[k], wall_lower_.z, wall_upper_.z);
+        return 0.5 * particles.mass[i] *
+               (hold(particles.position.x[k], particles.velocity.x[k], wall_lower_.x, wall_upper_.x) +
+                hold(particles.position.y[k], particles.velocity.y[k], wall_lower_.y, wall_upper_.y) +
+                hold(particles.position.z[k], particles.velocity.z[k], wall_lower_.z, wall_upper_.z));
     });
 }
 
@@ -195,6 +224,7 @@ void Simulation::retire_escaped()
     for (const Index i : neighbourhood_.moving_particles())
         if (outside(particles.position[i])) {
             (*escaped_)[i] = 1.0;
+            flow_->books().stops -= energy_of_what_stops(i);
             mobility_[i] = 0.0;
             particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
             particles.velocity.set(i, {});
@@ -220,11 +250,21 @@ void Simulation::advance_flow(double time_step)
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, time_step);
     kick(0.5 * time_step);
-    if (heat_)
-        for (const Index i : neighbourhood_.moving_particles())
-            heat_->mark_moved(i);
+    if (heat_) mark_what_moved();
     retire_escaped();
     updates_ += neighbourhood_.moving_particles().size();
+}
+
+/// What heat has to sum anew: around what moves, and around solids whose volume follows the pressure of what moves.
+void Simulation::mark_what_moved()
+{
+    for (const Index i : neighbourhood_.moving_particles())
+        heat_->mark_moved(i);
+    for (const Index c : neighbourhood_.standing()) {
+        const Cluster& cluster = neighbourhood_.list().cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            heat_->mark_moved(i);
+    }
 }
 
 void Simulation::advance_heat(double until)
@@ -249,6 +289,7 @@ void Simulation::melt_and_solidify()
         const bool liquid = (*liquid_fraction_)[i] >= CarmanKozeny::coherent_below;
         if (liquid == (mobility_[i] != 0.0)) continue;
         changed = true;
+        if (!liquid) flow_->books().stops -= energy_of_what_stops(i);
         mobility_[i] = liquid ? 1.0 : 0.0;
         particles.kind[k] = liquid ? Kind::fluid : Kind::solid;
         particles.velocity.set(i, {});
@@ -285,6 +326,9 @@ void Simulation::save(std::map<std::string, double>& numbers) const
     for (const auto& [name, count] : binding_)
         numbers["binding." + name] = static_cast<double>(count);
     if (heat_) heat_->save(numbers);
+    if (!flow_) return;
+    numbers["work.energy_at_start"] = mechanical_energy_at_start_;
+    flow_->books().save(numbers);
 }
 
 void Simulation::load(const std::map<std::string, double>& numbers)
@@ -299,6 +343,9 @@ void Simulation::load(const std::map<std::string, double>& numbers)
     for (const auto& [name, value] : numbers)
         if (name.starts_with(prefix)) binding_[name.substr(prefix.size())] = static_cast<std::uint64_t>(value);
     if (heat_) heat_->load(numbers);
+    if (!flow_) return;
+    mechanical_energy_at_start_ = numbers.at("work.energy_at_start");
+    flow_->books().load(numbers);
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

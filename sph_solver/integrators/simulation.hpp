@@ -58,6 +58,8 @@ public:
     double escaped_mass() const;
     /// Particle updates so far, by flow and heat together.
     std::uint64_t updates() const { return updates_; }
+    /// Of kinetic and elastic energy of the liquid; only where there is a flow.
+    Ledger mechanical_ledger() const;
     /// Criterion → number of steps that it bound.
     const std::map<std::string, std::uint64_t>& binding_limits() const { return binding_; }
 
@@ -65,12 +67,20 @@ private:
     void set_frozen_temperature();
     double choose_time_step(double longest);
     void advance_flow(double time_step);
+    void mark_what_moved();
     void advance_heat(double until);
     void melt_and_solidify();
     void kick(double time_step);
+    double energy_of_what_stops(Index i) const;
     void retire_escaped();
     void hold_before_walls();
     bool outside(const Vector& position) const;
+    template <class Value> auto sum_over_moving(const Value& value) const
+    {
+        const auto& moving = neighbourhood_.moving_particles();
+        return ordered_sum(static_cast<Index>(moving.size()),
+                           [&](Index m) { return value(moving[static_cast<std::size_t>(m)]); });
+    }
 
     Scene scene_;
     ScalarField& mobility_;
@@ -87,6 +97,7 @@ private:
     Vector wall_lower_{}, wall_upper_{}; ///< liquid stays between these, m; infinite where neither wall nor mirror is
     Vector lower_{}, upper_{};           ///< beyond these a particle has left, m
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
+    double mechanical_energy_at_start_ = 0.0; ///< J
     std::string last_binding_;
     std::uint64_t steps_ = 0, updates_ = 0, updates_when_settled_ = 0;
     std::map<std::string, std::uint64_t> binding_;

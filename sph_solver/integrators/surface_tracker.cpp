@@ -21,7 +21,8 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
                                const ScalarField& mobility)
     : particles_(*scene.particles), kernel_(kernel), mobility_{mobility}, profile_(kernel, scene.dimensions),
       fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),
-      needs_curvature_(scene.definition.requires_physics("surface_tension")), spacing_(scene.spacing),
+      needs_curvature_(scene.definition.requires_physics("surface_tension")),
+      sharpens_(!scene.two_phase && !scene.definition.requires_physics("wetting")), spacing_(scene.spacing),
       h_(parameters.smoothing_length), full_companions_(lattice_companions(scene.dimensions))
 {
     for (Index i = 0; i < particles_.count(); ++i)
@@ -161,8 +162,28 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
     const double greatest = (two_phase_ ? 1.0 : 0.4) / spacing_;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, particles_.volume, fields_});
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  CurvatureSmoothing{mobility_, fields_});
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+        CurvatureSmoothing{mobility_, fields_, fields_.curvature_valid, fields_.raw_curvature, fields_.curvature});
+    if (sharpens_) sharpen_curvature(neighbourhood, greatest);
+}
+
+/// Gives back what smoothing has taken from the curvature of a wave. On its way it passes four kernels of the same
+/// width: the colour gradient, the smoothing of normals, the fit, and the smoothing of the fit. Each leaves 1 − q of
+/// it, q = ½ k² ⟨x²⟩ (the fit too, where its weights fall off as a Gaussian's do), so that with one more, which gives
+/// (1 − q) κ̄,   κ ← κ̄ + 4 (κ̄ − (1 − q) κ̄) = (1 − q)⁴ (1 + 4 q) κ = (1 − 10 q² + …) κ   is right to the second order in
+/// k h, and never more than κ.
+void SurfaceTracker::sharpen_curvature(const Neighbourhood& neighbourhood, double greatest)
+{
+    constexpr double kernels_passed = 4.0;
+    // The raw curvature has served.
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+        CurvatureSmoothing{mobility_, fields_, fields_.curvature_valid, fields_.curvature, fields_.raw_curvature});
+    neighbourhood.for_each_moving([&](Index i) {
+        const double once = fields_.curvature[i], twice = fields_.raw_curvature[i];
+        if (once != 0.0) fields_.curvature[i] = std::clamp(once + kernels_passed * (once - twice), -greatest, greatest);
+    });
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -43,6 +43,7 @@ private:
     void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void smooth_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);
+    void sharpen_curvature(const Neighbourhood& neighbourhood, double greatest);
 
     Particles& particles_;
     QuinticSpline kernel_;
@@ -52,6 +53,7 @@ private:
     SurfaceThresholds thresholds_;
     int dimensions_;
     bool two_phase_, needs_curvature_;
+    bool sharpens_; ///< only where the load is carried into the liquid: a band that bears it does not stand the noise
     double spacing_, h_, full_companions_;
     std::optional<WallInterface> wall_interface_;
 };

@@ -47,9 +47,9 @@ const Surrounding& needed_surrounding(const Case& definition)
 } // namespace
 
 ThermalStep::ThermalStep(Scene& scene)
-    : particles_(*scene.particles), spacing_(scene.spacing), smoothing_length_(smoothing_length_of(scene)),
-      kernel_(smoothing_length_, scene.dimensions), materials_(thermal_materials(scene)),
-      walls_(scene.definition.domain, kernel_, scene.spacing, scene.dimensions),
+    : particles_(*scene.particles), dimensions_(scene.dimensions), spacing_(scene.spacing),
+      smoothing_length_(smoothing_length_of(scene)), kernel_(smoothing_length_, scene.dimensions),
+      materials_(thermal_materials(scene)), walls_(scene.definition.domain, kernel_, scene.spacing, scene.dimensions),
       temperature_(particles_.add_scalar({"temperature", "K", Output::yes})),
       enthalpy_(particles_.add_scalar({"enthalpy", "J/kg"})),
       peak_temperature_(particles_.add_scalar({"peak_temperature", "K", Output::yes})),
@@ -198,7 +198,8 @@ void ThermalStep::find_stale_clusters(const NeighbourList& list)
 void ThermalStep::update_geometry(const NeighbourList& list)
 {
     find_stale_clusters(list);
-    const KernelCompleteness completeness{particles_.volume, conductivity_, particles_.position, walls_, correction_};
+    const KernelCompleteness completeness{
+        dimensions_, smoothing_length_, particles_.volume, conductivity_, particles_.position, walls_, correction_};
     if (!losses_.any()) {
         for_each_pair(list, particles_, kernel_, stale_clusters_, completeness);
         return;

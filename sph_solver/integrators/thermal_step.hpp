@@ -53,9 +53,9 @@ public:
     explicit ThermalStep(Scene& scene);
 
     /// Longest step: 0.075 h²/α of the fastest material and state, times numerics.thermal_time_step_factor, s. Stable
-    /// is five times that (2/λ of the greatest eigenvalue on a disordered lattice, 0.4 h²/α). At the usual 0.15 (Cleary,
-    /// Monaghan 1999) the pool of a 20 μm track is 1.8 % wider than with heat at each of the flow's steps, at 0.075 as
-    /// wide to 0.2 % (./cupel bench --savings).
+    /// is five times that (2/λ of the greatest eigenvalue on a disordered lattice, 0.4 h²/α). At the usual 0.15
+    /// (Cleary, Monaghan 1999) the pool of a 20 μm track is 1.8 % wider than with heat at each of the flow's steps, at
+    /// 0.075 as wide to 0.2 % (./cupel bench --savings).
     double stable_time_step() const { return stable_time_step_; }
 
     /// One step of all particles, from `time` to `time + time_step` (s): explicit, but for the surface's losses, each
@@ -110,6 +110,7 @@ private:
     bool is_wall(Index i) const { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }
 
     Particles& particles_;
+    int dimensions_;
     double spacing_, smoothing_length_;
     QuinticSpline kernel_;
     std::vector<ThermalMaterial> materials_;

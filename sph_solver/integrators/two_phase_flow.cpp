@@ -1,6 +1,7 @@
 #include "integrators/two_phase_flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/density_summation.hpp"
 #include "models/momentum.hpp"
@@ -11,6 +12,8 @@ namespace cupel::inline CUPEL_ENGINE
 
 TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), viscosity_(particles_.add_scalar({"viscosity", "Pa s"})),
+      transport_rate_(particles_.add_scalar({"transport_rate", "m3/s"})),
+      imbalance_(particles_.add_scalar({"pressure_imbalance", "W"})),
       transport_velocity_(particles_.add_vector({"transport_velocity", "m/s"}))
 {
     double heaviest = 0.0;
@@ -38,16 +41,38 @@ void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
     });
 }
 
-void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
+/// Both phases have the heavier one's stiffness.
+double TwoPhaseFlow::elastic_energy(Index i) const
+{
+    const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
+    return EquationOfState{std::sqrt(stiffness_ / rest)}.elastic_energy(particles_.density[i], rest);
+}
+
+void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
     const auto& list = neighbourhood.list();
+    const auto& moving = neighbourhood.moving_particles();
+    const auto elastic = [&] {
+        return ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+            const Index i = moving[static_cast<std::size_t>(m)];
+            return particles_.mass[i] * elastic_energy(i);
+        });
+    };
+    const double before = elastic();
     for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
-                  DensitySummation{mobility_, particles_.mass, particles_.volume, particles_.density});
-    neighbourhood.for_each_moving([&](Index i) {
+                  DensitySummation{mobility_, particles_.mass, transport_velocity_, particles_.volume,
+                                   particles_.density, transport_rate_});
+    MechanicalWork work;
+    work.density_diffusion = ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+        const Index i = moving[static_cast<std::size_t>(m)];
         const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
+        const double pressure = particles_.pressure[i];
         particles_.pressure[i] = stiffness_ * (particles_.density[i] / rest - 1.0);
+        return -time_step * 0.5 * (pressure + particles_.pressure[i]) * transport_rate_[i];
     });
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true));
+    work.compression = time_step > 0.0 ? elastic() - before - work.density_diffusion : 0.0;
+    books_ += work;
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_extrapolation(true, particles_.pressure));
     const double lattice_volume = scene_.particle_volume();
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);
@@ -60,7 +85,11 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double)
         surface_->find(neighbourhood);
     }
     find_forces(neighbourhood);
-    add_remedies(neighbourhood);
+    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+                            return imbalance_[moving[static_cast<std::size_t>(m)]];
+                        });
+    add_up_forces(neighbourhood);
+    find_load(neighbourhood);
     accelerate(neighbourhood);
 }
 
@@ -69,9 +98,9 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
     const auto sum = [&](const auto&... terms) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
     };
-    const TwoPhaseMomentum momentum{mobility_,          particles_.volume,   particles_.density,    particles_.pressure,
-                                    viscosity_,         particles_.velocity, parameters_.transport, force_,
-                                    transport_velocity_};
+    const TwoPhaseMomentum momentum{mobility_,      particles_.volume,   particles_.density,    particles_.pressure,
+                                    viscosity_,     particles_.velocity, parameters_.transport, pressure_force_,
+                                    viscous_force_, imbalance_,          transport_velocity_};
     if (temperature_gradient_) find_temperature_gradient(neighbourhood, *correction_);
     if (!stress_gradient_) return sum(momentum);
     // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
@@ -82,7 +111,7 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
             row->set(i, (viscosity_[i] - least_viscosity_) * (*row)[i]);
     });
     // The second adds to what the first has just stored for the same cluster.
-    sum(momentum, ViscousTraction{mobility_, particles_.volume, *stress_gradient_, 1.0, force_});
+    sum(momentum, ViscousTraction{mobility_, particles_.volume, *stress_gradient_, 1.0, viscous_force_});
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -17,11 +17,14 @@ public:
 
     void drift(const Neighbourhood& neighbourhood, double time_step) override;
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
+    double elastic_energy(Index i) const override;
 
 private:
     void find_forces(const Neighbourhood& neighbourhood);
 
     ScalarField& viscosity_;
+    ScalarField& transport_rate_; ///< rate of a volume by the transport velocity, m³/s
+    ScalarField& imbalance_;      ///< W
     VectorField& transport_velocity_;
     std::optional<CorrectionMatrix> correction_;            ///< for Marangoni flow and the traction
     std::optional<VelocityGradientFields> stress_gradient_; ///< (μ − least μ) ∇v, Pa; only where viscosities differ

@@ -260,22 +260,24 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     sum_up([records](Index j) -> const Record& { return records[j]; });
 }
 
-/// Sum of value(i) over all particles, added in blocks of fixed size so that the number of threads does not matter.
-template <class Value> double ordered_sum(Index count, const Value& value)
+/// Sum of value(i) over all particles, of a number or of anything that adds up, in blocks of fixed size so that the
+/// number of threads does not matter.
+template <class Value> auto ordered_sum(Index count, const Value& value)
 {
+    using Sum = decltype(value(Index{}));
     constexpr Index block = 4096;
     const Index blocks = (count + block - 1) / block;
-    std::vector<double> partial(static_cast<std::size_t>(blocks), 0.0);
-#pragma omp parallel for schedule(static)
+    std::vector<Sum> partial(static_cast<std::size_t>(blocks), Sum{});
+#pragma omp parallel for schedule(static) if (blocks > 1)
     for (Index b = 0; b < blocks; ++b) {
         const Index end = std::min(count, (b + 1) * block);
-        double sum = 0.0;
+        Sum sum{};
         for (Index i = b * block; i < end; ++i)
             sum += value(i);
         partial[static_cast<std::size_t>(b)] = sum;
     }
-    double total = 0.0;
-    for (const double sum : partial)
+    Sum total{};
+    for (const Sum& sum : partial)
         total += sum;
     return total;
 }

@@ -10,13 +10,14 @@ namespace cupel
 ///
 ///   1 / (1 + Δt (C/ρ) (1 − f)²/(f³ + ε))      [1]
 ///
-/// Solid (f = 0) keeps 7·10⁻⁶ of its velocity over 0.1 μs at ρ = 6900.
+/// C is a property of the material's mush (Kozeny: 180 μ/d², d the spacing of its dendrites). With C = 10¹³ solid (f =
+/// 0) keeps 7·10⁻⁶ of its velocity over 0.1 μs at ρ = 6900.
 struct CarmanKozeny
 {
-    double constant = 1e13;       ///< C, kg/(m³·s); 10⁹ lets cold powder creep
+    double constant = 0;          ///< C, kg/(m³·s)
     double regularisation = 1e-3; ///< ε
 
-    /// Below this liquid fraction the drag stops the mush within a tenth of any time step that the flow takes (drag
+    /// Below this liquid fraction steel's drag stops the mush within a tenth of any time step that the flow takes (drag
     /// rate C (1 − f)²/(f³ ρ) above 5·10⁷ 1/s): it stands, and the flow treats it as a wall.
     static constexpr double coherent_below = 0.85;
 

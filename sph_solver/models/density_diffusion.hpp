@@ -5,9 +5,9 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-/// Density diffusion (Antuono, Colagrossi, Marrone 2012, the δ-SPH scheme), added to what continuity gave:
+/// Density diffusion (Antuono, Colagrossi, Marrone 2012, the δ-SPH scheme), beside what continuity gives:
 ///
-///   dρ_i/dt += δ h c₀ Σ_j 2 V_j ψ_ij·∇W_ij                                                       [kg/(m³ s)]
+///   dρ_i/dt  = δ h c₀ Σ_j 2 V_j ψ_ij·∇W_ij                                                       [kg/(m³ s)]
 ///   ψ_ij     = [(ρ_j − ρ_i)/r − ½(⟨∇ρ⟩_i + ⟨∇ρ⟩_j)·e_ji] e_ji,   e_ji = (x_j − x_i)/r
 ///
 /// Between liquid particles; walls and solids take no part.
@@ -17,8 +17,8 @@ struct DensityDiffusion
     const ScalarField& volume;
     const ScalarField& density;
     const VectorField& density_gradient;
-    double diffusivity;        ///< δ h c₀, m²/s
-    ScalarField& density_rate; ///< added to
+    double diffusivity; ///< δ h c₀, m²/s
+    ScalarField& density_rate;
 
     struct Near
     {
@@ -52,7 +52,7 @@ struct DensityDiffusion
     {
         for (int lane = 0; lane < cluster.count; ++lane)
             if (mobility.weight[cluster.first + lane] != 0.0)
-                density_rate[cluster.first + lane] += diffusivity * sum.diffusion[lane];
+                density_rate[cluster.first + lane] = diffusivity * sum.diffusion[lane];
     }
 };
 

@@ -21,6 +21,26 @@ struct EquationOfState
         const double ratio = density / rest_density;
         return exponent == 1.0 ? stiffness * (ratio - 1.0) : stiffness * (std::pow(ratio, exponent) - 1.0);
     }
+    /// Elastic energy e = ∫ p/ρ² dρ from the rest density, J/kg; with x = ρ/ρ₀:
+    ///
+    ///   γ = 1:  c₀² (ln x + 1/x − 1)       else:  c₀²/γ [(x^(γ−1) − 1)/(γ − 1) + 1/x − 1]
+    ///
+    /// Near x = 1 both are small differences of great numbers, and their series in y = x − 1 are taken:
+    ///
+    ///   γ = 1:  c₀² Σ_k (−y)^k (k − 1)/k, k ≥ 2       else:  c₀² [y²/2 + (γ − 5) y³/6 + …]
+    double elastic_energy(double density, double rest_density) const
+    {
+        const double x = density / rest_density, y = x - 1.0, c2 = sound_speed * sound_speed;
+        if (exponent == 1.0) {
+            if (std::abs(y) > 0.02) return c2 * (std::log(x) + 1.0 / x - 1.0);
+            double sum = 0.0;
+            for (int k = 8; k >= 2; --k)
+                sum = (k - 1.0) / k - y * sum;
+            return c2 * y * y * sum;
+        }
+        if (std::abs(y) < 1e-4) return c2 * y * y * (0.5 + (exponent - 5.0) / 6.0 * y);
+        return c2 / exponent * ((std::pow(x, exponent - 1.0) - 1.0) / (exponent - 1.0) + 1.0 / x - 1.0);
+    }
     double density(double pressure, double rest_density) const
     {
         const double relative = pressure * exponent / (sound_speed * sound_speed * rest_density) + 1.0;

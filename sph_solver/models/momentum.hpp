@@ -12,7 +12,9 @@ namespace cupel::inline CUPEL_ENGINE
 /// The first sum is the variational partner of the continuity equation (Colagrossi et al. 2009: consistent at a free
 /// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22, to which viscous_traction.hpp adds what it lacks
 /// at a free surface. Both are antisymmetric: they conserve momentum
-/// between liquid particles to round-off. Shifting keeps the arrangement even, which the second sum relies on.
+/// between liquid particles to round-off. For the books, what pressure does against walls and solids, which liquid
+/// meets with an extrapolated pressure and velocity: −Σ_w V_i V_w (p_w v_i + p_i v_w)·∇W_iw [W], the part of pressure's
+/// work that no compression of liquid answers. Shifting keeps the arrangement even, which the second sum relies on.
 struct FreeSurfaceMomentum
 {
     Mobility mobility;
@@ -20,7 +22,9 @@ struct FreeSurfaceMomentum
     const ScalarField& pressure;
     const VectorField& velocity;
     double viscosity; ///< μ of the liquid, Pa·s
-    VectorField& force;
+    VectorField& pressure_force;
+    VectorField& viscous_force;
+    ScalarField& wall_power; ///< W
 
     struct Near
     {
@@ -29,26 +33,33 @@ struct FreeSurfaceMomentum
     };
     struct Far
     {
-        Real volume, pressure;
+        Real liquid, volume, pressure; ///< liquid: 1 or 0
         VectorOf<Real> velocity;
     };
     struct Sum
     {
-        VectorLanes force{};
+        VectorLanes pressure{}, viscous{};
+        Lanes wall_power{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(volume, first), lanes(pressure, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(pressure[j]), real(velocity[j])}; }
+    Far far(Index j) const { return {real(mobility.weight[j]), real(volume[j]), real(pressure[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const Lanes weight = i.volume * j.volume * pair.gradient_over_r;
-        sum.force -= (weight * (i.pressure + j.pressure)) * pair.offset;
-        sum.force += (2.0 * viscosity * weight) * (i.velocity - broadcast(j.velocity));
+        sum.pressure -= (weight * (i.pressure + j.pressure)) * pair.offset;
+        sum.viscous += (2.0 * viscosity * weight) * (i.velocity - broadcast(j.velocity));
+        if (j.liquid == 0)
+            sum.wall_power -= weight * (j.pressure * dot(i.velocity, pair.offset) +
+                                        i.pressure * dot(broadcast(j.velocity), pair.offset));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_if(force, cluster, sum.force, [&](Index i) { return mobility.weight[i] != 0.0; });
+        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        store_if(pressure_force, cluster, sum.pressure, liquid);
+        store_if(viscous_force, cluster, sum.viscous, liquid);
+        store_if(wall_power, cluster, sum.wall_power, liquid);
     }
 };
 
@@ -64,6 +75,9 @@ struct FreeSurfaceMomentum
 ///
 ///   δu_i = −½ Δt_a β c₀²/V_i Σ_j (V_i² + V_j²) ∇W_ij,   Δt_a = 0.4 Δx/c₀      [m/s]
 ///
+/// For the books, what pressure does beyond the compression that it takes, since p̃ is no derivative of an energy where
+/// densities differ, and since walls yield nothing: F_p,i·v_i + p_i V_i² Σ_j (v_i − v_j)·∇W_ij [W].
+///
 /// As published Δt_a is the time step and β one; this one does not change with what else limits the step, and with the
 /// particle's own density as heavy and light phases differ.
 struct TwoPhaseMomentum
@@ -75,7 +89,9 @@ struct TwoPhaseMomentum
     const ScalarField& viscosity;
     const VectorField& velocity;
     double transport; ///< ½ Δt_a β c₀² = 0.2 β c₀ Δx, m²/s
-    VectorField& force;
+    VectorField& pressure_force;
+    VectorField& viscous_force;
+    ScalarField& imbalance; ///< W
     VectorField& transport_velocity;
 
     struct Near
@@ -90,7 +106,8 @@ struct TwoPhaseMomentum
     };
     struct Sum
     {
-        VectorLanes force{}, unevenness{};
+        VectorLanes pressure{}, viscous{}, unevenness{};
+        Lanes divergence{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -112,14 +129,19 @@ struct TwoPhaseMomentum
         const Lanes viscosity_j = wall ? i.viscosity : Lanes(j.viscosity);
         const Lanes mean_pressure = (density_j * i.pressure + i.density * j.pressure) / (i.density + density_j);
         const Lanes mean_viscosity = 2.0 * i.viscosity * viscosity_j / (i.viscosity + viscosity_j);
-        sum.force -= (weight * mean_pressure) * pair.offset;
-        sum.force += (weight * mean_viscosity) * (i.velocity - broadcast(j.velocity));
+        sum.pressure -= (weight * mean_pressure) * pair.offset;
+        const VectorLanes difference = i.velocity - broadcast(j.velocity);
+        sum.viscous += (weight * mean_viscosity) * difference;
+        sum.divergence += pair.gradient_over_r * dot(wall ? i.velocity : difference, pair.offset);
         sum.unevenness += weight * pair.offset;
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
         const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
-        store_if(force, cluster, sum.force, liquid);
+        store_if(pressure_force, cluster, sum.pressure, liquid);
+        store_if(viscous_force, cluster, sum.viscous, liquid);
+        store_if(imbalance, cluster, dot(sum.pressure, i.velocity) + i.pressure * i.volume * i.volume * sum.divergence,
+                 liquid);
         store_if(transport_velocity, cluster, (-transport / i.volume) * sum.unevenness, liquid);
     }
 };

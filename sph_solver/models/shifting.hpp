@@ -127,7 +127,7 @@ struct WallShift
 /// Sun, Colagrossi, Marrone, Zhang 2019 and Antuono et al. 2021; derived in models/README.md):
 ///
 ///   dm_i/dt   = Σ_j Φ_ij,                  Φ_ij = V_i V_j (ρ_j δu_j + ρ_i δu_i)·∇W_ij      [kg/s]
-///   dρ_i/dt  += Σ_j Φ_ij/V_i − ρ_i Σ_j V_j (δu_j − δu_i)·∇W_ij                              [kg/(m³ s)]
+///   dρ_i/dt   = Σ_j Φ_ij/V_i − ρ_i Σ_j V_j (δu_j − δu_i)·∇W_ij                              [kg/(m³ s)]
 ///   m_i dv_i/dt += Σ_j V_i V_j ρ_j (δu_j·∇W_ij)(v_j − v_i)                                  [N]
 ///
 /// Each pair's exchange is multiplied by min(b_i, b_j) (exchange_balance): no particle gains or loses more than a fifth
@@ -141,7 +141,7 @@ struct ShiftingExchange
     const VectorField& velocity;
     const VectorField& shift;
     const ScalarField& balance; ///< b, 1: falls to 0 as a particle's mass leaves its bounds
-    ScalarField& density_rate;  ///< added to
+    ScalarField& density_rate;  ///< kg/(m³ s)
     ScalarField& mass_rate;     ///< kg/s
     VectorField& momentum_rate; ///< N
 
@@ -188,7 +188,7 @@ struct ShiftingExchange
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            density_rate[i] += sum.density[lane];
+            density_rate[i] = sum.density[lane];
             mass_rate[i] = sum.mass[lane];
             momentum_rate.set(i, {sum.momentum.x[lane], sum.momentum.y[lane], sum.momentum.z[lane]});
         }

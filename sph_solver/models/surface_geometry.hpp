@@ -281,11 +281,14 @@ struct TangentPlaneCurvature
     }
 };
 
-/// κ_i ← Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles whose fit succeeded      [1/m]
+/// κ̄_i = Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles that have a curvature      [1/m]
 struct CurvatureSmoothing
 {
     Mobility mobility;
     SurfaceFields surface;
+    const ScalarField& valid; ///< above zero where there is a curvature
+    const ScalarField& value; ///< κ
+    ScalarField& smoothed;    ///< κ̄; zero where the surface bears no force
 
     struct Near
     {};
@@ -305,8 +308,8 @@ struct CurvatureSmoothing
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        const double weight = surface.curvature_valid[j] * surface.delta[j];
-        return {real(weight), real(weight * surface.raw_curvature[j])};
+        const double weight = valid[j] > 0.0 ? surface.delta[j] : 0.0;
+        return {real(weight), real(weight * value[j])};
     }
     bool ignores(const Far& j) const { return j.weight == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
@@ -320,7 +323,7 @@ struct CurvatureSmoothing
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
             const bool bears_force = surface.delta[i] > 0.0 && sum.weight[lane] > 0.0;
-            surface.curvature[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
+            smoothed[i] = bears_force ? sum.curvature[lane] / sum.weight[lane] : 0.0;
         }
     }
 };

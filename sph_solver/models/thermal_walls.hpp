@@ -39,29 +39,49 @@ public:
     }
 
     /// What walls fill of a particle's kernel: all of them for the surface (their gradient ∇c, 1/m), those with a
-    /// temperature for conduction as well (their share of it, 1). Where walls meet, no part is counted twice.
+    /// temperature for conduction as well (their share of it, its gradient, and the share of the kernel's moment along
+    /// each axis). Where walls meet, no part is counted twice.
     struct Filling
     {
         Vector gradient{};
         double share = 0;
         double conducting_share = 0;
+        Vector conducting_gradient{};
+        Vector conducting_moment{};
     };
     Filling filling(const Vector& position) const
     {
         Filling result;
         double open = 1.0, open_to_conduction = 1.0, before_adiabatic = 1.0;
+        Vector moment_missing{1.0, 1.0, 1.0}, open_gradient{}, adiabatic_gradient{};
         for (const Plane& plane : planes_) {
             const double d = plane.distance(position);
             if (d >= support_) continue;
             const double share = layers_.share(d), slope = layers_.slope(d);
             // ∇[1 − Π(1 − c)] built up factor by factor; c falls away from the wall.
-            result.gradient = (1.0 - share) * result.gradient;
-            plane.component(result.gradient) -= plane.inward * slope * open;
+            const auto multiply = [&](Vector& gradient_of_product, double product) {
+                gradient_of_product = (1.0 - share) * gradient_of_product;
+                plane.component(gradient_of_product) += plane.inward * slope * product;
+            };
+            result.gradient = -1.0 * result.gradient;
+            multiply(result.gradient, open);
+            result.gradient = -1.0 * result.gradient;
             open *= 1.0 - share;
-            (plane.temperature ? open_to_conduction : before_adiabatic) *= 1.0 - share;
+            if (!plane.temperature) {
+                multiply(adiabatic_gradient, before_adiabatic);
+                before_adiabatic *= 1.0 - share;
+                continue;
+            }
+            multiply(open_gradient, open_to_conduction);
+            open_to_conduction *= 1.0 - share;
+            Vector left{1.0 - share, 1.0 - share, 1.0 - share};
+            plane.component(left) = 1.0 - layers_.moment(d);
+            moment_missing = {moment_missing.x * left.x, moment_missing.y * left.y, moment_missing.z * left.z};
         }
         result.share = 1.0 - open;
         result.conducting_share = before_adiabatic * (1.0 - open_to_conduction);
+        result.conducting_gradient = (1.0 - open_to_conduction) * adiabatic_gradient - before_adiabatic * open_gradient;
+        result.conducting_moment = before_adiabatic * (Vector{1.0, 1.0, 1.0} - moment_missing);
         return result;
     }
 

@@ -22,8 +22,10 @@ namespace cupel::inline CUPEL_ENGINE
 /// (Morris, Fox, Zhu 1997, eq. 26, with a limit against noise; with it the wall of a shear flow is where it should be,
 /// without it the second layer gives a third of its stress). Solids have no such plane and edges none of their own:
 /// there the ratio is one. Without a gas on the other side a wall does not pull: then p_w is kept at or above zero.
-/// Solid metal is of one piece with its melt and may pull: else what melts would be thrown off by every positive
-/// pressure and held by no negative one.
+/// Where the load on a free surface is carried into the liquid (surface_pressure.hpp), a wall has its mean λ_w = Σ λ_f
+/// W / Σ W, p is what is left of pressure without it, and it is p_w + λ_w that is kept at or above zero. Solid metal is
+/// of one piece with its melt and may pull: else what melts would be thrown off by every positive pressure and held by
+/// no negative one.
 struct WallExtrapolation
 {
     Mobility mobility;
@@ -35,6 +37,7 @@ struct WallExtrapolation
     const ScalarField* free_slip;
     const ScalarField* wall_depth;    ///< d_w, m; 0 where no plane is meant
     const VectorField* wall_velocity; ///< v_wall, m/s; null where all walls are at rest
+    ScalarField* carried_load;        ///< λ, Pa; null where none is carried
     ScalarField& pressure;
     VectorField& velocity;
 
@@ -42,12 +45,12 @@ struct WallExtrapolation
     {};
     struct Far
     {
-        Real liquid, pressure, density; ///< liquid: 1 or 0
+        Real liquid, pressure, density, load; ///< liquid: 1 or 0
         VectorOf<Real> velocity;
     };
     struct Sum
     {
-        Lanes weight{}, pressure{};
+        Lanes weight{}, pressure{}, load{};
         VectorLanes head{}, velocity{}, away{}; ///< away: Σ (x_w − x_f) W
     };
 
@@ -55,13 +58,15 @@ struct WallExtrapolation
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        return {real(mobility.weight[j]), real(pressure[j]), real(density[j]), real(velocity[j])};
+        return {real(mobility.weight[j]), real(pressure[j]), real(density[j]),
+                carried_load ? real((*carried_load)[j]) : Real(0), real(velocity[j])};
     }
     bool ignores(const Far& j) const { return j.liquid == 0; }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.weight += pair.kernel;
         sum.pressure += j.pressure * pair.kernel;
+        sum.load += j.load * pair.kernel;
         sum.head += (j.density * pair.kernel) * pair.offset;
         sum.velocity += pair.kernel * broadcast(j.velocity);
         sum.away += pair.kernel * pair.offset;
@@ -73,6 +78,7 @@ struct WallExtrapolation
             if (mobility.weight[i] != 0.0) continue;
             if (!(sum.weight[lane] > 0.0)) {
                 pressure[i] = 0.0;
+                if (carried_load) (*carried_load)[i] = 0.0;
                 velocity.set(i, {});
                 continue;
             }
@@ -80,7 +86,9 @@ struct WallExtrapolation
             const Vector head{sum.head.x[lane], sum.head.y[lane], sum.head.z[lane]};
             const double extrapolated = scale * (sum.pressure[lane] + dot(gravity, head));
             const bool may_pull = walls_may_pull || kind[static_cast<std::size_t>(i)] == Kind::solid;
-            pressure[i] = may_pull ? extrapolated : std::max(0.0, extrapolated);
+            const double load = scale * sum.load[lane];
+            if (carried_load) (*carried_load)[i] = load;
+            pressure[i] = may_pull ? extrapolated : std::max(-load, extrapolated);
             const Vector mean{scale * sum.velocity.x[lane], scale * sum.velocity.y[lane], scale * sum.velocity.z[lane]};
             if (free_slip && (*free_slip)[i] != 0.0)
                 velocity.set(i, mean - (2.0 * dot(mean, (*wall_normal)[i])) * (*wall_normal)[i]);

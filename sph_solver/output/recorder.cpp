@@ -301,6 +301,10 @@ Ending Recorder::finish()
     record.ledgers["mass"] = mass_;
     record.ledgers["volume"] = volume_;
     record.ledger_details["volume"]["greatest_error"] = greatest_volume_error_;
+    if (simulation_.flow()) {
+        record.ledgers["mechanical_energy"] = simulation_.mechanical_ledger();
+        record.ledger_details["mechanical_energy"] = simulation_.flow()->books().details();
+    }
     if (const ThermalStep* heat = simulation_.heat()) {
         record.ledgers["energy"] = heat->ledger();
         const HeatBooks& books = heat->books();

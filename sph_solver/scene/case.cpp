@@ -44,6 +44,7 @@ Material material_from(const std::string& name, const json& table)
     material.liquidus = optional_number(table, "liquidus");
     material.melting_temperature = optional_number(table, "melting_temperature");
     material.latent_heat = optional_number(table, "latent_heat");
+    material.mushy_drag = optional_number(table, "mushy_drag");
     material.surface_tension = optional_number(table, "surface_tension");
     material.surface_tension_slope = optional_number(table, "surface_tension_slope");
     material.surface_tension_reference_temperature = optional_number(table, "surface_tension_reference_temperature");

@@ -41,6 +41,7 @@ struct Material
     std::optional<double> liquidus;                              ///< [K]
     std::optional<double> melting_temperature;                   ///< isotherm that bounds the melt pool in measures [K]
     std::optional<double> latent_heat;                           ///< of melting [J/kg]
+    std::optional<double> mushy_drag;                            ///< Carman and Kozeny's C [kg/(m^3 s)]
     std::optional<double> surface_tension;                       ///< at the reference temperature [N/m]
     std::optional<double> surface_tension_slope;                 ///< d(sigma)/dT [N/(m K)]
     std::optional<double> surface_tension_reference_temperature; ///< [K]

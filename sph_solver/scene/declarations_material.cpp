@@ -29,6 +29,8 @@ Table material_declaration()
              .above(0)
              .derived("midway between solidus and liquidus"),
          quantity("latent_heat", "J/kg", "latent heat of melting").at_least(0),
+         quantity("mushy_drag", "kg/(m^3 s)", "constant C of the mushy zone's drag C (1 - f)^2/f^3 on the melt")
+             .above(0),
          quantity("surface_tension", "N/m", "surface tension at surface_tension_reference_temperature").at_least(0),
          quantity("surface_tension_slope", "N/(m K)", "change of surface tension with temperature"),
          quantity("surface_tension_reference_temperature", "K", "temperature at which surface_tension holds").above(0),

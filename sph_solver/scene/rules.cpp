@@ -129,6 +129,8 @@ void check_material_data(const json& values, const Node& document)
                             (names_physics(values, "heat") || names_physics(values, "marangoni"));
         if (varies)
             require_datum(values, document, material, "surface_tension_reference_temperature", "surface_tension_slope");
+        if (names_physics(values, "melting") && names_physics(values, "flow"))
+            require_datum(values, document, material, "mushy_drag", "physics 'melting' with 'flow'");
         if (names_physics(values, "laser") && !values.at("laser").contains("absorptivity"))
             require_datum(values, document, material, "absorptivity", "physics 'laser'");
         if (data.contains("solidus") && data.contains("liquidus") && data.at("solidus") > data.at("liquidus"))

@@ -17,7 +17,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 STEEL = {"density": 6900.0, "density_solid": 7200.0, "viscosity": 6e-3, "specific_heat": 780.0, "specific_heat_solid": 700.0,
          "conductivity": 18.14, "conductivity_solid": 36.71, "solidus": 1673.0, "liquidus": 1773.0, "melting_temperature": 1723.0,
-         "latent_heat": 247000.0, "surface_tension": 1.2, "surface_tension_slope": -4.3e-4,
+         "latent_heat": 247000.0, "mushy_drag": 1e13, "surface_tension": 1.2, "surface_tension_slope": -4.3e-4,
          "surface_tension_reference_temperature": 1723.0, "surface_tension_minimum": 0.1, "contact_angle": 0.785398,
          "boiling_temperature": 3050.0, "vaporization_heat": 6.1e6, "molar_mass": 0.0558, "emissivity": 0.6, "absorptivity": 0.35}
 ARGON = {"density": 1.62, "viscosity": 2.2e-5, "specific_heat": 520.0, "conductivity": 0.018}

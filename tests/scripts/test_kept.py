@@ -31,8 +31,8 @@ class Member:
         owner = name.removesuffix(f"_{variation}") if variation else name
         self.kept = cases / owner / "kept" / (variation or "")
 
-    def resolve(self, level):
-        return {"hash": self.case_hash}
+    def resolve(self, level, overrides=()):
+        return {"hash": self.case_hash + "".join(overrides)}
 
 
 @pytest.fixture
@@ -70,6 +70,15 @@ def test_a_result_is_kept_whole_with_its_history_and_nothing_else(cases, root):
     assert sorted(path.name for path in folder.iterdir()) == ["result.json", "series.csv"]
     assert folder == cases / "made" / "kept" / "sph" / "coarse"
     assert read_kept("made", "sph", "coarse") == read_result(place)
+
+
+@needs_git
+def test_a_formulation_is_kept_beside_the_default(cases, root):
+    made_result(root, "sph", "coarse-no_density_diffusion", 4e-5, 1.5, commit=HEAD, case_hash="hnumerics.density_diffusion=0")
+    folder, = keep(root, [Member(cases)], ("sph",), "coarse", "no_density_diffusion")
+    assert folder == cases / "made" / "kept" / "sph" / "coarse-no_density_diffusion"
+    assert read_kept("made", "sph", "coarse-no_density_diffusion")["variant"] == "coarse-no_density_diffusion"
+    assert read_kept("made", "sph", "coarse") is None
 
 
 @needs_git

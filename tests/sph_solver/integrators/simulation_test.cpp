@@ -57,6 +57,24 @@ TEST(Simulation, MassIsConservedToRoundOff)
     EXPECT_NEAR(mass_of(end.particles()), mass_of(start.particles()), 1e-12 * mass_of(start.particles()));
 }
 
+TEST(Simulation, MechanicalBooksHoldEveryWork)
+{
+    Case definition = heavy_pool();
+    definition.numerics.artificial_viscosity = 0.05;
+    const Simulation simulation = simulate(definition, 300);
+    const MechanicalWork& work = simulation.flow()->books();
+    const Ledger ledger = simulation.mechanical_ledger();
+    EXPECT_GT(work.gravity, 0.0);
+    EXPECT_LT(work.viscosity, 0.0);
+    EXPECT_LT(work.artificial, 0.0);
+    EXPECT_LT(work.density_diffusion, 0.0);
+    // Every kick and every change of density has its causes, to round-off; what closes is that pressure gives what
+    // compression takes, but for walls and for steps of finite length.
+    const double all = ledger.in - ledger.out + work.pressure + work.compression - work.imbalance;
+    EXPECT_NEAR(ledger.end - ledger.start, all, 1e-12 * ledger.in);
+    EXPECT_LT(ledger.closure(), 2e-3);
+}
+
 TEST(Simulation, SettlingThenGoingOnEqualsLoadingThenGoingOn)
 {
     Simulation unbroken = simulate(heavy_pool(), 60);
@@ -144,6 +162,36 @@ TEST(Simulation, SurfaceTensionDrivesALightPhaseAsTheHeavyOne)
     EXPECT_GT(heavy, 0.0);
     EXPECT_GT(light, 0.5 * heavy);
     EXPECT_LT(light, 2.0 * heavy);
+}
+
+/// A disc of liquid in nothing, at rest, for as long as sound takes to cross it some tens of times.
+TEST(Simulation, DropInNothingHasItsLaplacePressureAndRests)
+{
+    Case definition = pool(2, 0.05);
+    definition.physics = {"flow", "surface_tension"};
+    definition.domain.lower = {0, 0, -0.5};
+    definition.domain.boundaries[5]->kind = BoundaryKind::wall;
+    definition.materials.at("liquid").surface_tension = 1.0;
+    Body& body = definition.bodies.front();
+    body.shape = BodyShape::sphere;
+    body.center = {1, 0, 0.5};
+    body.radius = 0.4;
+    const Simulation simulation = simulate(definition, 600);
+    const Particles& particles = simulation.particles();
+    double pressure = 0.0, excess = 0.0, fastest = 0.0;
+    Index inside = 0;
+    for (const Index i : simulation.neighbourhood().moving_particles()) {
+        fastest = std::max(fastest, norm(particles.velocity[i]));
+        if (norm(particles.position[i] - Vector{1, 0, 0.5}) > 0.25) continue;
+        pressure += particles.pressure[i];
+        excess += particles.scalar("excess_pressure")[i];
+        ++inside;
+    }
+    ASSERT_GT(inside, 60);
+    EXPECT_NEAR(pressure / inside, 1.0 / 0.4, 0.03 / 0.4);
+    // The load is carried inside, so that density has nearly nothing to bear.
+    EXPECT_LT(std::abs(excess / inside), 0.05 / 0.4);
+    EXPECT_LT(fastest, 0.05 * std::sqrt(1.0 / 0.4)); // of the capillary speed
 }
 
 TEST(PlaceParticles, LiquidThatIsShiftedStartsAThousandthOfASpacingOffItsLattice)

@@ -45,7 +45,7 @@ TEST(Radiation, HasItsValuesByHand)
 
 TEST(CarmanKozeny, StopsSolidAndLeavesLiquidAlone)
 {
-    const CarmanKozeny drag;
+    const CarmanKozeny drag{1e13};
     EXPECT_EQ(drag.damping_factor(1.0, 6900, 1e-7), 1.0);
     // 1/(1 + 1e-7 · 1e13/1e-3/6900)
     EXPECT_NEAR(drag.damping_factor(0.0, 6900, 1e-7), 6.9e-6, 1e-9);
