@@ -214,15 +214,20 @@ def test_a_courant_number_out_of_hand_is_stopped_with_a_diagnosis(tmp_path):
     assert "Courant number has risen to" in record["diagnosis"] and "lower numerics.time_step_factor" in record["diagnosis"]
 
 
-@pytest.mark.parametrize("threads", [1, 2])
-def test_a_field_that_is_no_number_is_stopped_with_place_and_time(threads, tmp_path):
-    data = small_cases.grain_on_plate(numerics={"openfoam": {"mesh": "static"}})
-    process = start(data, tmp_path, "--threads", str(threads))
-    while not (tmp_path/"result"/"fields"/"fields_000000.vtu").exists() and process.poll() is None:
+def interrupted_after_the_start(data, folder, *options):
+    """Folder of the mesh of a run that was interrupted soon after its first snapshot; it can be resumed."""
+    process = start(data, folder, *options)
+    while not (folder/"result"/"fields"/"fields_000000.vtu").exists() and process.poll() is None:
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)
-    mesh = tmp_path/"result"/"checkpoints"/"mesh_0000"
+    return folder/"result"/"checkpoints"/"mesh_0000"
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_field_that_is_no_number_is_stopped_with_place_and_time(threads, tmp_path):
+    data = small_cases.grain_on_plate(numerics={"openfoam": {"mesh": "static"}})
+    mesh = interrupted_after_the_start(data, tmp_path, "--threads", str(threads))
     part = mesh/f"processor{threads - 1}" if threads > 1 else mesh           # on the last rank, which is not the one that reports
     newest = max((path for path in part.iterdir() if path.name[0].isdigit()), key=lambda path: float(path.name))
     raw = bytearray((newest/"T").read_bytes())
@@ -254,16 +259,6 @@ def test_a_frozen_temperature_drives_the_same_flow_on_two_ranks(tmp_path):
     speeds = [field["velocity"][field["fraction"] > 0.5] for field in fields]
     assert np.abs(speeds[0]).max() > 1e-3
     assert np.abs(speeds[0] - speeds[1]).max() < 1e-4*np.abs(speeds[0]).max()
-
-
-def interrupted_after_the_start(data, folder, *options):
-    """Folder of the mesh of a run that was interrupted soon after its first snapshot; it can be resumed."""
-    process = start(data, folder, *options)
-    while not (folder/"result"/"fields"/"fields_000000.vtu").exists() and process.poll() is None:
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
-    return folder/"result"/"checkpoints"/"mesh_0000"
 
 
 @pytest.mark.parametrize("threads", [1, 2])
