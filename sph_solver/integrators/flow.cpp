@@ -174,18 +174,15 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
 {
     if (!unresolved_) return;
     const NeighbourList& list = neighbourhood.list();
+    const double full = lattice_companions(scene_.dimensions);
+    neighbourhood.for_each_moving(
+        [&](Index i) { (*unresolved_)[i] = Cohesion::share_unresolved(surface_->fields().companions[i], full); });
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(),
+                  CompanionsOfSolids{mobility_, parameters_.smoothing_length, full, particles_.kind, *unresolved_});
     std::vector<Index> unresolved;
-    for (const Index c : neighbourhood.moving()) {
-        const Cluster& cluster = list.cluster(c);
-        bool any = false;
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
-            if (mobility_.weight[i] == 0.0) continue;
-            (*unresolved_)[i] =
-                Cohesion::share_unresolved(surface_->fields().companions[i], lattice_companions(scene_.dimensions));
-            any = any || (*unresolved_)[i] > 0.0;
-        }
-        if (any) unresolved.push_back(c);
-    }
+    for (const auto* clusters : {&neighbourhood.moving(), &neighbourhood.standing()})
+        for (const Index c : *clusters)
+            if (!none_in(list.cluster(c), [&](Index i) { return (*unresolved_)[i] > 0.0; })) unresolved.push_back(c);
     const std::vector<Index> near = neighbourhood.moving_near(unresolved);
     if (near.empty()) return;
     const bool flat = scene_.dimensions == 2;

@@ -22,7 +22,8 @@ namespace cupel::inline CUPEL_ENGINE
 ///   s = 2σ Δx / Σ_(bonds across the plane, a site) (2u³/3 − u⁴/4),   u = 3 − q      (0.150 σ Δx in three dimensions)
 ///
 /// w_i goes from 0, for what has the surroundings of a flat surface (23 of 33 companions) or of a right edge (16), to 1
-/// for a sheet of one particle (13) and less. Solid metal attracts its melt; walls do not.
+/// for a sheet of one particle (13) and less. Solid metal attracts its melt and has the share w of its own surroundings
+/// (CompanionsOfSolids): a grain, or spray that froze, is as thin as it looks. Walls do not attract.
 struct Cohesion
 {
     Mobility mobility;
@@ -32,7 +33,7 @@ struct Cohesion
     SurfaceTensionLaw tension;
     const std::vector<Kind>& kind;
     const ScalarField* temperature; ///< null where it is the same everywhere
-    const ScalarField& unresolved;  ///< w of what moves
+    const ScalarField& unresolved;  ///< w of all metal
     VectorField& force;             ///< N: added to
 
     struct Near
@@ -63,8 +64,7 @@ struct Cohesion
     Far far(Index j) const
     {
         const bool wall = kind[static_cast<std::size_t>(j)] == Kind::wall;
-        // What has frozen is a body, whatever it was when it last moved.
-        return {real(wall ? 0.0 : mobility.weight[j] * unresolved[j]), real(wall ? -1.0 : strength(j))};
+        return {real(wall ? 0.0 : unresolved[j]), real(wall ? -1.0 : strength(j))};
     }
     bool ignores(const Far& j) const { return j.strength < 0; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -102,6 +102,38 @@ struct Cohesion
     {
         const double of_33 = 33.0 * companions / full_companions;
         return std::clamp(0.25 * (17.0 - of_33), 0.0, 1.0);
+    }
+};
+
+/// The share w of solids, which nothing else counts companions for.
+struct CompanionsOfSolids
+{
+    Mobility mobility;
+    double smoothing_length; ///< m
+    double full_companions;
+    const std::vector<Kind>& kind;
+    ScalarField& unresolved; ///< w
+
+    struct Near
+    {};
+    struct Sum
+    {
+        Lanes companions{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.all_in(cluster); }
+    Near near(Index) const { return {}; }
+    void add(const Near&, Index, const Pair& pair, Sum& sum) const
+    {
+        sum.companions += select(counted(pair, smoothing_length), 1.0, 0.0);
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane) {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] != 0.0 || kind[static_cast<std::size_t>(i)] == Kind::wall) continue;
+            unresolved[i] = Cohesion::share_unresolved(sum.companions[lane], full_companions);
+        }
     }
 };
 

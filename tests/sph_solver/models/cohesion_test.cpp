@@ -97,37 +97,35 @@ TEST_P(CohesionIn, PairForcesCancel)
     EXPECT_LT(norm(sum), 1e-12 * greatest * static_cast<double>(particles.count()));
 }
 
-/// What has frozen keeps the value that it had as spray; it is part of a body now.
-TEST(Cohesion, FrozenSprayHoldsNothing)
+/// Solids have the share of the surroundings that they have now: inside a block none, whatever they were as spray, and
+/// all of it where they stand alone. Walls have none of their own.
+TEST(Cohesion, SolidsAreAsThinAsTheyLook)
 {
-    Particles particles = small_scenes::jittered_lattice(6, 3, 0.3);
-    ScalarField& mobility = particles.add_scalar({"mobility", "1"}, 1.0);
-    ScalarField& unresolved = particles.add_scalar({"unresolved", "1"});
-    VectorField& force = particles.add_vector({"force", "N"});
+    Particles particles = small_scenes::jittered_lattice(9, 3, 0.0);
+    ScalarField& mobility = particles.add_scalar({"mobility", "1"});
+    ScalarField& unresolved = particles.add_scalar({"unresolved", "1"}, 1.0);
+    const auto nearest_to = [&](const Vector& place) {
+        Index nearest = 0;
+        for (Index i = 0; i < particles.count(); ++i)
+            if (norm(particles.position[i] - place) < norm(particles.position[nearest] - place)) nearest = i;
+        return nearest;
+    };
+    const auto identity = [&](Index i) { return particles.identity[static_cast<std::size_t>(i)]; };
+    const auto inside = identity(nearest_to({4.5, 4.5, 4.5})), alone = identity(nearest_to({0.5, 0.5, 0.5})),
+               wall = identity(nearest_to({4.5, 4.5, 0.5}));
+    for (Index i = 0; i < particles.count(); ++i) {
+        mobility[i] = 0.0;
+        unresolved[i] = 0.75;
+        particles.kind[static_cast<std::size_t>(i)] = identity(i) == wall ? Kind::wall : Kind::solid;
+        if (identity(i) == alone) particles.position.set(i, {-20.0, 0.0, 0.0});
+    }
     Neighbourhood neighbourhood(3.0, 0.3, 1.0, 3);
     neighbourhood.rebuild(particles, mobility);
-    const Index spray = particles.count() / 2;
-    const auto greatest_force = [&](double moves) {
-        unresolved[spray] = 1.0;
-        mobility[spray] = moves;
-        std::fill(force.x.begin(), force.x.end(), 0.0);
-        for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, 3), neighbourhood.all(),
-                      Cohesion{{mobility},
-                               1.0,
-                               1.0,
-                               Cohesion::bonds_across_a_plane(3),
-                               {surface_tension, 0.0, 0.0, 0.0},
-                               particles.kind,
-                               nullptr,
-                               unresolved,
-                               force});
-        double greatest = 0.0;
-        for (Index i = 0; i < particles.count(); ++i)
-            if (i != spray) greatest = std::max(greatest, std::abs(force[i].x));
-        return greatest;
-    };
-    EXPECT_GT(greatest_force(1.0), 0.01);
-    EXPECT_EQ(greatest_force(0.0), 0.0);
+    for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, 3), neighbourhood.all(),
+                  CompanionsOfSolids{{mobility}, 1.0, lattice_companions(3), particles.kind, unresolved});
+    EXPECT_EQ(unresolved[particles.place_of(inside)], 0.0);
+    EXPECT_EQ(unresolved[particles.place_of(alone)], 1.0);
+    EXPECT_EQ(unresolved[particles.place_of(wall)], 0.75);
 }
 
 TEST(Cohesion, ActsOnSheetsAndSprayAndLeavesFlatSurfacesAlone)
