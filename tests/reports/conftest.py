@@ -35,11 +35,14 @@ def results(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def page(results) -> Path:
-    """The report over these results."""
+def page(results, tmp_path_factory) -> Path:
+    """The report over these results, where nothing is kept that could stand in for one of them."""
+    from cupel import results as results_module
     from reports.page import write_page
 
-    return write_page(results, None, "coarse")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(results_module, "CASES", tmp_path_factory.mktemp("nothing_kept"))
+        return write_page(results, None, "coarse")
 
 
 @pytest.fixture(scope="session")
