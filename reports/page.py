@@ -45,7 +45,7 @@ def write_page(root: Path, names: list[str] | None, variant: str) -> Path:
         "cases": [case_block(case, pictures[case.name], root) for case in shown], "tiers": verified,
         "orders": orders_block(root, cases), "formulations": formulations_block(root, cases, variant),
         "tally": Counter(row.verdict for row in rows), "judged": sum(row.verdict != "none" for row in rows),
-        "power": power_picture(cases), "power_rows": power_table(cases), "power_views": power_views(shown, pictures),
+        "power": power_picture(shown), "power_rows": power_table(shown), "power_views": power_views(shown, pictures),
         "trends": [present(row) for row in trends],
         "ledgers": [line for case in cases for run in case.runs for line in ledger_lines(run)],
         "costs": [cost_line(run) for case in cases for run in case.runs if run.result],

@@ -164,15 +164,17 @@ def missing_row(case: str, solver: str, variant: str, note: str, verdict: str = 
 def power_trend_rows(results: list[dict]) -> list[Row]:
     """Rows that ask whether the melt pool's width rises with laser power, for each solver and variant.
 
-    Cases belong together when their resolved settings have the same spacing, speed and spot. The value is the
-    smallest growth from one power to the next [m]; it passes when every step is a growth.
+    Cases belong together when their resolved settings have the same tier, spacing, speed and spot: a source that moves
+    over metal which only conducts is no track. The value is the smallest growth from one power to the next [m]; it
+    passes when every step is a growth.
     """
     groups: dict[tuple, dict[float, float]] = {}
     for result in results:
         laser = result["settings"].get("laser")
         widths = [m["value"] for m in result["measures"] if m["name"] == "melt_pool_width" and m["value"] is not None]
         if laser and widths and result["status"] == "completed":
-            key = (result["solver"], result["variant"], result["settings"].get("spacing"), laser.get("speed"),
+            settings = result["settings"]
+            key = (result["solver"], result["variant"], settings.get("tier"), settings.get("spacing"), laser.get("speed"),
                    laser.get("spot_radius"))
             groups.setdefault(key, {})[laser["power"]] = widths[0]
     rows = []

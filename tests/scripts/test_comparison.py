@@ -100,19 +100,27 @@ def test_the_limit_of_the_energy_ledger_is_tighter_for_the_reference():
     assert all(m["pass"] for m in ledger_measures(record | {"solver": "sph"}))
 
 
-def trend(widths: dict[float, float]) -> list[Row]:
-    results = [
+def powers(widths: dict[float, float], tier: str) -> list[dict]:
+    return [
         {"case": f"t{power}", "solver": "sph", "variant": "coarse", "status": "completed", "measures": [measure(value=value)],
-         "settings": {"spacing": 2e-5, "laser": {"power": power, "speed": 0.15, "spot_radius": 8e-5}}}
+         "settings": {"tier": tier, "spacing": 2e-5, "laser": {"power": power, "speed": 0.15, "spot_radius": 8e-5}}}
         for power, value in widths.items()
     ]
-    return power_trend_rows(results)
+
+
+def trend(widths: dict[float, float]) -> list[Row]:
+    return power_trend_rows(powers(widths, "canonical"))
 
 
 def test_width_must_rise_at_every_step_of_power():
     assert trend({100: 1.0, 150: 1.2, 200: 1.3})[0].verdict == "pass"
     assert trend({100: 1.0, 150: 1.4, 200: 1.3})[0].verdict == "fail"
     assert trend({100: 1.0}) == []
+
+
+def test_a_source_that_moves_over_metal_at_rest_is_no_track():
+    tracks, sources = powers({100: 1.0, 150: 1.2}, "canonical"), powers({100: 3.0, 150: 3.5}, "v0")
+    assert sorted(row.value for row in power_trend_rows(tracks + sources)) == pytest.approx([0.2, 0.5])
 
 
 def test_junit_has_a_case_for_each_row():
