@@ -24,7 +24,7 @@ def run_benchmarks(mode: str, repetitions: int) -> dict:
     """Runs the benchmarks and returns the table that `as_table` prints and `--json` writes."""
     counts = COUNTS[mode]
     largest_model = "10000" if mode == "quick" else "100000"
-    pattern = (f"^((plain|full|naive)_[a-z]+/({'|'.join(counts)})/"
+    pattern = (f"^((plain|full|one_rate|naive)_[a-z]+/({'|'.join(counts)})/"
                f"|model_double/[a-z_]+/{largest_model}/|float_error/{largest_model})")
     command = [str(program("cupel_benchmarks")), f"--benchmark_filter={pattern}", "--benchmark_format=json",
                f"--benchmark_repetitions={repetitions}"]
@@ -52,8 +52,9 @@ def arrange(rows: list[dict]) -> dict:
         found = sorted(row[counter] for row in rows if row["name"].startswith(name) and counter in row)
         return found[len(found) // 2]
 
-    table: dict = {key: {} for key in ("plain_float", "plain_double", "full_step", "full_step_float", "thread_scaling",
-                                       "bytes_per_particle", "naive_plain", "float_error", "models")}
+    table: dict = {key: {} for key in ("plain_float", "plain_double", "full_step", "full_step_float", "full_step_one_rate",
+                                       "full_step_one_rate_float", "thread_scaling", "bytes_per_particle", "naive_plain",
+                                       "float_error", "models")}
     previous: tuple[float, float] | None = None
     for name in names:
         kind, *rest = name.split("/")
@@ -69,7 +70,8 @@ def arrange(rows: list[dict]) -> dict:
             continue
         count, threads = EXPONENT[rest[0]], rest[1]
         key = {"plain_float": "plain_float", "plain_double": "plain_double", "full_double": "full_step",
-               "full_float": "full_step_float", "naive_double": "naive_plain"}[kind]
+               "full_float": "full_step_float", "one_rate_double": "full_step_one_rate",
+               "one_rate_float": "full_step_one_rate_float", "naive_double": "naive_plain"}[kind]
         if threads == "1":
             table[key][count] = round(rate, 3)
             if kind == "plain_double":
@@ -84,10 +86,11 @@ def arrange(rows: list[dict]) -> dict:
 def print_table(table: dict) -> None:
     """The table for a reader."""
     print(f"{table['host']['cpu']}, {table['instructions']}; million particle updates a second a core")
-    for key in ("plain_double", "plain_float", "full_step", "full_step_float", "naive_plain"):
-        print(f"  {key:18}" + "".join(f"{count:>6}: {rate:7.3f}" for count, rate in table[key].items()))
-    print(f"  {'two threads / one':18}" + "".join(f"{count:>6}: {x:7.3f}" for count, x in table["thread_scaling"].items()))
-    print(f"  {'bytes a particle':18}" + "".join(f"{count:>6}: {x:7.1f}" for count, x in table["bytes_per_particle"].items()))
+    for key in ("plain_double", "plain_float", "full_step", "full_step_float", "full_step_one_rate", "full_step_one_rate_float",
+                "naive_plain"):
+        print(f"  {key:24}" + "".join(f"{count:>6}: {rate:7.3f}" for count, rate in table[key].items()))
+    print(f"  {'two threads / one':24}" + "".join(f"{count:>6}: {x:7.3f}" for count, x in table["thread_scaling"].items()))
+    print(f"  {'bytes a particle':24}" + "".join(f"{count:>6}: {x:7.1f}" for count, x in table["bytes_per_particle"].items()))
     print("what each model adds, ns and bytes a particle and step")
     for name, cost in table["models"].items():
         print(f"  {name:22}{cost['time_ns']:9.1f} ns{cost['bytes']:9.1f} B")

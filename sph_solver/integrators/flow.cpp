@@ -121,27 +121,38 @@ SurfaceTemperature Flow::surface_temperature()
     return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
 }
 
-void Flow::add_up_forces(const Neighbourhood& neighbourhood)
+void Flow::hold_surface_forces()
 {
-    neighbourhood.for_each_moving([&](Index i) {
-        Vector force = pressure_force_[i] + viscous_force_[i];
-        if (artificial_force_) force += (*artificial_force_)[i];
-        if (shifting_force_) force += (*shifting_force_)[i];
-        force_.set(i, force);
-    });
+    by_surface_ = &particles_.add_vector({"acceleration_by_surface", "m/s2"});
+    by_surface_before_ = &particles_.add_vector({"acceleration_by_surface_before", "m/s2"});
 }
 
-MechanicalWork Flow::work(Index i, const Vector& mean_velocity, double time_step) const
+Vector Flow::sum_of_pair_forces(Index i) const
 {
-    const Vector path = time_step * mean_velocity;
+    Vector force = pressure_force_[i] + viscous_force_[i];
+    if (artificial_force_) force += (*artificial_force_)[i];
+    if (shifting_force_) force += (*shifting_force_)[i];
+    return force;
+}
+
+void Flow::add_up_forces(const Neighbourhood& neighbourhood)
+{
+    neighbourhood.for_each_moving([&](Index i) { force_.set(i, sum_of_pair_forces(i)); });
+}
+
+MechanicalWork Flow::work(Index i, const Vector& mean_velocity, const KickTimes& times) const
+{
     MechanicalWork work;
-    work.pressure = dot(pressure_force_[i], path);
+    work.pressure = dot(pressure_force_[i], times.sound * mean_velocity);
+    work.gravity = particles_.mass[i] * dot(gravity_, times.sound * mean_velocity);
+    if (by_surface_) work.surface = particles_.mass[i] * dot(kick_by_surface(i, times), mean_velocity);
+    if (times.slow == 0.0) return work;
+    const Vector path = times.slow * mean_velocity;
     work.viscosity = dot(viscous_force_[i], path);
-    work.gravity = particles_.mass[i] * dot(gravity_, path);
     if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
     if (shifting_force_) work.shifting = dot((*shifting_force_)[i], path);
-    work.surface = particles_.mass[i] * dot(acceleration_[i], path) - work.pressure - work.viscosity - work.gravity -
-                   work.artificial - work.shifting;
+    work.surface += particles_.mass[i] * dot(acceleration_[i] - acceleration_by_sound(i), path) - work.viscosity -
+                    work.artificial - work.shifting;
     return work;
 }
 
@@ -216,6 +227,8 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
 {
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
+        Vector by_surface{};
+        if (by_surface_) by_surface = (1.0 / particles_.mass[i]) * (force_[i] - sum_of_pair_forces(i));
         if (surface_ && surface_->fields().delta[i] > 0.0) {
             const SurfaceFields& surface = surface_->fields();
             const Vector normal = surface.normal[i];
@@ -224,11 +237,15 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             if (band_bears_load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
+            by_surface += (1.0 / particles_.density[i]) * force_density;
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             acceleration += (1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i])) * force_density;
         }
         acceleration_.set(i, acceleration);
+        if (!by_surface_) return;
+        by_surface_before_->set(i, (*by_surface_)[i]);
+        by_surface_->set(i, by_surface);
     });
 }
 

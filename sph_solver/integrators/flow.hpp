@@ -19,6 +19,24 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
+/// One of the shorter steps in which sound is followed within a step.
+struct SoundStep
+{
+    double time_step; ///< s
+    double whole;     ///< the step of which it is a part, s
+    bool halfway;     ///< whether it ends in the middle of that
+    bool last;        ///< whether the next ends where that does
+};
+
+/// For how long each kind of force acts in a kick, s.
+struct KickTimes
+{
+    double sound;            ///< pressure and gravity
+    double slow;             ///< viscosity, Marangoni stress and what else does not pull against pressure
+    double surface;          ///< tension, recoil, cohesion, as of this step
+    double surface_before{}; ///< and as of the step before
+};
+
 /// Momentum and mass of the liquid: what a step needs to know of either formulation.
 class Flow
 {
@@ -31,16 +49,33 @@ public:
     /// Densities, pressures and accelerations at the new positions. time_step is that of the drift (0 at the start).
     virtual void evaluate(const Neighbourhood& neighbourhood, double time_step) = 0;
 
+    /// Whether sound may be followed in shorter steps within one step of all else.
+    virtual bool follows_sound() const { return false; }
+    /// One of those, after each drift but the last: densities by continuity and the force of pressure at the new
+    /// positions, all else held. evaluate() then does what sound still lacks of the step.
+    virtual void evaluate_sound(const Neighbourhood&, const SoundStep&) {}
+
     /// A particle that has just melted or solidified starts from rest.
     virtual void reset(Index place)
     {
         acceleration_.set(place, {});
+        if (by_surface_) by_surface_->set(place, {});
         if (surface_) surface_->reset(place);
     }
 
     const VectorField& acceleration() const { return acceleration_; }
+    /// Of it, what sound is made of: pressure, and gravity, which pressure bears.
+    Vector acceleration_by_sound(Index i) const { return (1.0 / particles_.mass[i]) * pressure_force_[i] + gravity_; }
+    /// What a kick adds to the velocity of particle i, m/s.
+    Vector kick(Index i, const KickTimes& times) const
+    {
+        Vector change = (times.sound - times.slow) * acceleration_by_sound(i);
+        if (times.slow > 0.0) change += times.slow * acceleration_[i];
+        if (by_surface_) change += kick_by_surface(i, times);
+        return change;
+    }
     /// Work of a kick on particle i, whose velocity is `mean` on the average of it, by cause, J.
-    MechanicalWork work(Index i, const Vector& mean_velocity, double time_step) const;
+    MechanicalWork work(Index i, const Vector& mean_velocity, const KickTimes& times) const;
     /// e of a particle, J/kg.
     virtual double elastic_energy(Index i) const;
     /// ½ m v² + m e of all that moves, J.
@@ -63,7 +98,16 @@ protected:
     ArtificialStress artificial_stress();
     /// The temperature that surface forces are evaluated at, as a term.
     SurfaceTemperature surface_temperature();
-    /// force_ ← pressure and viscosity, the artificial forces, and what shifting carries.
+    /// Registers what is held of the surface's forces while sound is followed.
+    void hold_surface_forces();
+    /// What shares the time of sound and not of all else: nothing where both are the same.
+    Vector kick_by_surface(Index i, const KickTimes& times) const
+    {
+        return (times.surface - times.slow) * (*by_surface_)[i] + times.surface_before * (*by_surface_before_)[i];
+    }
+    /// Pressure and viscosity, the artificial forces, and what shifting carries, N.
+    Vector sum_of_pair_forces(Index i) const;
+    /// force_ ← that.
     void add_up_forces(const Neighbourhood& neighbourhood);
     /// The corrected gradient of temperature, where surface tension varies with it.
     void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
@@ -86,6 +130,8 @@ protected:
     VectorField* artificial_force_ = nullptr; ///< only where a case switches such forces on
     VectorField* shifting_force_ = nullptr;   ///< momentum that shifting carries
     VectorField& acceleration_;
+    VectorField* by_surface_ = nullptr;        ///< acceleration by load, cohesion: only where it is held
+    VectorField* by_surface_before_ = nullptr; ///< a step ago
     MechanicalWork books_;
     std::unique_ptr<SurfaceTracker> surface_;
 

@@ -8,7 +8,6 @@
 #include "models/density_diffusion.hpp"
 #include "models/momentum.hpp"
 #include "models/shifting.hpp"
-#include "models/shifting_exchange.hpp"
 #include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
 
@@ -43,6 +42,7 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
             energy_rate_ = &particles_.add_scalar({"shifting_energy_rate", "W"});
         }
     }
+    if (load_ && scene.definition.numerics.acoustic_substeps > 1) hold_surface_forces();
     start_hydrostatic();
 }
 
@@ -112,17 +112,8 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
                                  *diffusion_rate_});
     };
     if (!surface_) return sum();
-    if (!shift_) return sum(surface_->colour_gradient());
-    const double lattice_mass = rest_density_ * scene_.particle_volume();
-    neighbourhood.for_each_moving(
-        [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
-    const auto exchange = [&](auto with_enthalpy) {
-        return ShiftingExchange<with_enthalpy()>{
-            mobility_, particles_.volume,       particles_.density, particles_.velocity, *shift_,     *balance_,
-            enthalpy_, *shifting_density_rate_, *mass_rate_,        *shifting_force_,    energy_rate_};
-    };
-    enthalpy_ ? sum(surface_->colour_gradient(), exchange(std::true_type{}))
-              : sum(surface_->colour_gradient(), exchange(std::false_type{}));
+    if (!shift_ || exchanged_) return sum(surface_->colour_gradient());
+    sum_with_exchange(neighbourhood, [&](const auto& exchange) { sum(surface_->colour_gradient(), exchange); });
 }
 
 void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
@@ -138,18 +129,22 @@ void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double t
     });
 }
 
-/// Densities from their rates, and with them volumes and pressures.
-MechanicalWork FreeSurfaceFlow::compress(Index i, double time_step)
+/// Densities from their rates, each for its time, and with them volumes and pressures.
+MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
 {
     // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
     // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
     // densities went.
     constexpr double limit = 0.05;
-    const double before = elastic_energy(i);
-    const double rates = density_rate_[i] + (diffusion_rate_ ? (*diffusion_rate_)[i] : 0.0) +
-                         (shifting_density_rate_ ? (*shifting_density_rate_)[i] : 0.0);
-    particles_.density[i] += time_step * rates;
-    const double compressed = elastic_energy(i);
+    const auto energy = [&] {
+        return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest_density_);
+    };
+    const double before = energy();
+    const double diffused = diffusion_rate_ ? times.diffusion * (*diffusion_rate_)[i] : 0.0;
+    const double shifted = shifting_density_rate_ ? times.shifting * (*shifting_density_rate_)[i] : 0.0;
+    const double changes = times.flow * density_rate_[i] + diffused + shifted;
+    particles_.density[i] += changes;
+    const double compressed = energy();
     // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
     if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
     particles_.density[i] =
@@ -158,20 +153,35 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, double time_step)
     (*excess_pressure_)[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
 
     MechanicalWork work;
-    const double change = rates != 0.0 ? particles_.mass[i] * (compressed - before) / rates : 0.0;
+    const double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
     const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
-    work.compression = change * (density_rate_[i] - replaced);
-    work.imbalance = change * replaced;
-    if (diffusion_rate_) work.density_diffusion = change * (*diffusion_rate_)[i];
-    if (shifting_density_rate_) work.shifting = change * (*shifting_density_rate_)[i];
-    work.limiter = particles_.mass[i] * (elastic_energy(i) - compressed);
+    work.compression = worth * times.flow * (density_rate_[i] - replaced);
+    work.imbalance = worth * times.flow * replaced;
+    work.density_diffusion = worth * diffused;
+    work.shifting = worth * shifted;
+    work.limiter = particles_.mass[i] * (energy() - compressed);
     return work;
 }
 
+void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const CompressionTimes& times)
+{
+    const auto& moving = neighbourhood.moving_particles();
+    books_ += ordered_sum(static_cast<Index>(moving.size()),
+                          [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], times); });
+}
+
+void FreeSurfaceFlow::book_walls(const Neighbourhood& neighbourhood, double time_step)
+{
+    const auto& moving = neighbourhood.moving_particles();
+    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
+                            return wall_power_[moving[static_cast<std::size_t>(m)]];
+                        });
+}
+
 /// Forces between particles, and in the same pass the shifting velocity of the next drift, the gradient of density by
-/// which that of the next step diffuses, and what Marangoni flow needs of temperature: all of them need nothing but the
-/// state as it is now.
-void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
+/// which that of the next step diffuses (where sound takes several steps, the last but one finds it), and what
+/// Marangoni flow needs of temperature: all of them need nothing but the state as it is now.
+void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient)
 {
     const FreeSurfaceMomentum momentum{mobility_,
                                        particles_.volume,
@@ -192,7 +202,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
         artificial_force_ ? sum(others..., artificial_viscosity(), artificial_stress()) : sum(others...);
     };
     const auto sum_with_density = [&](const auto&... others) {
-        if (!density_gradient_) return sum_with_remedies(others...);
+        if (!density_gradient_ || !with_density_gradient) return sum_with_remedies(others...);
         sum_with_remedies(others..., ScalarGradient{mobility_, particles_.density, *density_gradient_});
     };
     const auto sum_with_gradient = [&](const auto&... others) {
@@ -211,7 +221,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood)
             &surface_->fields().colour_gradient, *shift_});
     }
     neighbourhood.for_each_moving([&](Index i) {
-        for (VectorField* gradient : {temperature_gradient_, density_gradient_})
+        for (VectorField* gradient : {temperature_gradient_, with_density_gradient ? density_gradient_ : nullptr})
             if (gradient) gradient->set(i, correction_[i] * (*gradient)[i]);
     });
 }
@@ -234,6 +244,8 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
     }
     neighbourhood.for_each_moving([&](Index i) {
         const double share = share_of_surface(surface, i, h);
+        (*carried_load_)[i] = (*carried_mean_)[i];
+        if (share == 0.0) return;
         const double at_depth = (*load_)[i] - surface.depth[i] * dot((*carried_gradient_)[i], surface.normal[i]);
         (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
     });
@@ -263,29 +275,29 @@ void FreeSurfaceFlow::extrapolate_pressure(const Neighbourhood& neighbourhood)
 }
 
 /// The same: how they move.
-void FreeSurfaceFlow::extrapolate_velocity(const Neighbourhood& neighbourhood)
+void FreeSurfaceFlow::extrapolate_velocity(const Neighbourhood& neighbourhood, bool with_shift)
 {
     const auto sum = [&](const auto&... terms) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), terms...);
     };
-    shift_ ? sum(wall_velocity(), WallShift{mobility_, *shift_}) : sum(wall_velocity());
+    with_shift ? sum(wall_velocity(), WallShift{mobility_, *shift_}) : sum(wall_velocity());
 }
 
 void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    extrapolate_velocity(neighbourhood);
+    const bool exchanges = shift_ && !exchanged_, alone = sound_ahead_ == 0.0;
+    const double sound = time_step - sound_ahead_;
+    extrapolate_velocity(neighbourhood, exchanges);
     find_rates(neighbourhood);
-    if (shift_) exchange_mass(neighbourhood, time_step);
-    const auto& moving = neighbourhood.moving_particles();
-    books_ += ordered_sum(static_cast<Index>(moving.size()),
-                          [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], time_step); });
+    if (exchanges) exchange_mass(neighbourhood, time_step);
+    compress(neighbourhood, {sound, time_step, exchanges ? time_step : 0.0});
+    sound_ahead_ = 0.0;
+    exchanged_ = false;
     extrapolate_pressure(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
-    find_forces(neighbourhood);
-    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
-                            return wall_power_[moving[static_cast<std::size_t>(m)]];
-                        });
+    find_forces(neighbourhood, alone);
+    book_walls(neighbourhood, sound);
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/flow.hpp"
+#include "models/shifting_exchange.hpp"
 #include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -15,16 +16,26 @@ public:
 
     void drift(const Neighbourhood& neighbourhood, double time_step) override;
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
+    bool follows_sound() const override { return true; }
+    void evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step) override;
     void reset(Index place) override;
 
 private:
     void start_hydrostatic();
     void find_rates(const Neighbourhood& neighbourhood);
+    template <class SumWith> void sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with);
     void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
-    MechanicalWork compress(Index i, double time_step);
-    void find_forces(const Neighbourhood& neighbourhood);
+    struct CompressionTimes
+    {
+        double flow, diffusion, shifting; ///< s
+    };
+    void compress(const Neighbourhood& neighbourhood, const CompressionTimes& times);
+    MechanicalWork compress(Index i, const CompressionTimes& times);
+    void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
+    void book_walls(const Neighbourhood& neighbourhood, double time_step);
+    void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
-    void extrapolate_velocity(const Neighbourhood& neighbourhood);
+    void extrapolate_velocity(const Neighbourhood& neighbourhood, bool with_shift);
     void extrapolate_pressure(const Neighbourhood& neighbourhood);
 
     CorrectionMatrix correction_;
@@ -32,6 +43,8 @@ private:
     ScalarField& density_rate_;
     ScalarField& wall_power_; ///< W
     double rest_density_;
+    double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
+    bool exchanged_ = false;   ///< whether what shifting carries has been exchanged since then
     // Only where a load is carried (surface_pressure.hpp):
     ScalarField* replaced_rate_ = nullptr; ///< what the surface's band has for the partner of the pressure force
     ScalarField* carried_load_ = nullptr;
@@ -47,5 +60,20 @@ private:
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;
 };
+
+/// Sums what shifting carries between particles together with other terms.
+template <class SumWith>
+void FreeSurfaceFlow::sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with)
+{
+    const double lattice_mass = rest_density_ * scene_.particle_volume();
+    neighbourhood.for_each_moving(
+        [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
+    const auto exchange = [&](auto with_enthalpy) {
+        return ShiftingExchange<with_enthalpy()>{
+            mobility_, particles_.volume,       particles_.density, particles_.velocity, *shift_,     *balance_,
+            enthalpy_, *shifting_density_rate_, *mass_rate_,        *shifting_force_,    energy_rate_};
+    };
+    enthalpy_ ? sum_with(exchange(std::true_type{})) : sum_with(exchange(std::false_type{}));
+}
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -149,24 +149,38 @@ double Simulation::choose_time_step(double longest)
                                                 std::sqrt(parameters_.smoothing_length / std::sqrt(greatest))
                                           : no_limit;
         for (const auto& [name, limit] : limits_)
-            consider(name, limit);
+            if (name != "acoustic") consider(name, limit);
         if (heat_) consider("thermal", heat_->stable_time_step());
+        substeps_ = steps_of_sound(time_step);
+        consider("acoustic", substeps_ * limits_.at("acoustic"));
     }
     ++binding_[last_binding_];
     return time_step;
 }
 
-void Simulation::kick(double time_step)
+int Simulation::most_steps_of_sound() const
+{
+    return flow_->follows_sound() ? scene_.definition.numerics.acoustic_substeps : 1;
+}
+
+/// How many steps of sound make one of all else, `longest` being what all else allows: the nearest whole number. One
+/// more for a small rest would cost what it gains.
+int Simulation::steps_of_sound(double longest) const
+{
+    const double fitting = std::round(longest / limits_.at("acoustic"));
+    return static_cast<int>(std::clamp(fitting, 1.0, static_cast<double>(most_steps_of_sound())));
+}
+
+void Simulation::kick(const KickTimes& times)
 {
     Particles& particles = *scene_.particles;
-    const VectorField& acceleration = flow_->acceleration();
     flow_->books() += sum_over_moving([&](Index i) {
-        const Vector before = particles.velocity[i], change = time_step * acceleration[i];
+        const Vector before = particles.velocity[i], change = flow_->kick(i, times);
         Vector velocity = before + change;
-        MechanicalWork work = flow_->work(i, before + 0.5 * change, time_step);
+        MechanicalWork work = flow_->work(i, before + 0.5 * change, times);
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
         if (melts_ && (*liquid_fraction_)[i] < 1.0) {
-            const double factor = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], time_step);
+            const double factor = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound);
             work.mush = 0.5 * particles.mass[i] * (factor * factor - 1.0) * dot(velocity, velocity);
             velocity = factor * velocity;
         }
@@ -243,16 +257,28 @@ double Simulation::escaped_mass() const
 
 void Simulation::advance_flow(double time_step)
 {
-    kick(0.5 * time_step);
+    const double whole = time_step, sound = time_step / substeps_;
+    kick({0.5 * sound, 0.5 * whole, 0.5 * sound});
+    for (int k = 1; k < substeps_; ++k) {
+        move(sound);
+        flow_->evaluate_sound(neighbourhood_, {sound, whole, k == (substeps_ + 1) / 2, k + 1 == substeps_});
+        kick({sound, 0.0, sound});
+    }
+    move(sound);
+    if (frozen_temperature_) set_frozen_temperature();
+    flow_->evaluate(neighbourhood_, whole);
+    kick({0.5 * sound, 0.5 * whole, 0.5 * whole, 0.5 * (sound - whole)});
+    if (heat_) mark_what_moved();
+    retire_escaped();
+    sound_steps_ += static_cast<std::uint64_t>(substeps_);
+    updates_ += static_cast<std::uint64_t>(substeps_) * neighbourhood_.moving_particles().size();
+}
+
+void Simulation::move(double time_step)
+{
     flow_->drift(neighbourhood_, time_step);
     hold_before_walls();
     neighbourhood_.update(*scene_.particles, mobility_);
-    if (frozen_temperature_) set_frozen_temperature();
-    flow_->evaluate(neighbourhood_, time_step);
-    kick(0.5 * time_step);
-    if (heat_) mark_what_moved();
-    retire_escaped();
-    updates_ += neighbourhood_.moving_particles().size();
 }
 
 /// What heat has to sum anew: around what moves, and around solids whose volume follows the pressure of what moves.
@@ -321,6 +347,7 @@ void Simulation::save(std::map<std::string, double>& numbers) const
     numbers["clock.time"] = time_;
     numbers["clock.heat_time"] = heat_time_;
     numbers["clock.steps"] = static_cast<double>(steps_);
+    numbers["clock.sound_steps"] = static_cast<double>(sound_steps_);
     numbers["clock.updates"] = static_cast<double>(updates_);
     numbers["clock.last_time_step"] = last_time_step_;
     for (const auto& [name, count] : binding_)
@@ -336,6 +363,7 @@ void Simulation::load(const std::map<std::string, double>& numbers)
     time_ = numbers.at("clock.time");
     heat_time_ = numbers.at("clock.heat_time");
     steps_ = static_cast<std::uint64_t>(numbers.at("clock.steps"));
+    sound_steps_ = static_cast<std::uint64_t>(numbers.at("clock.sound_steps"));
     updates_ = static_cast<std::uint64_t>(numbers.at("clock.updates"));
     last_time_step_ = numbers.at("clock.last_time_step");
     binding_.clear();

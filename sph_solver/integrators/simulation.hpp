@@ -52,6 +52,8 @@ public:
     const TimeStepLimits& limits() const { return limits_; }
     double time() const { return time_; }
     std::uint64_t steps() const { return steps_; }
+    /// Of the flow, steps of sound: as many as steps, or a few times as many.
+    std::uint64_t sound_steps() const { return sound_steps_; }
     double last_time_step() const { return last_time_step_; }
     const std::string& last_binding() const { return last_binding_; }
     /// Mass of the particles that have left the domain, kg.
@@ -66,11 +68,14 @@ public:
 private:
     void set_frozen_temperature();
     double choose_time_step(double longest);
+    int most_steps_of_sound() const;
+    int steps_of_sound(double longest) const;
     void advance_flow(double time_step);
+    void move(double time_step);
     void mark_what_moved();
     void advance_heat(double until);
     void melt_and_solidify();
-    void kick(double time_step);
+    void kick(const KickTimes& times);
     double energy_of_what_stops(Index i) const;
     void retire_escaped();
     void hold_before_walls();
@@ -99,7 +104,8 @@ private:
     double time_ = 0.0, heat_time_ = 0.0, last_time_step_ = 0.0;
     double mechanical_energy_at_start_ = 0.0; ///< J
     std::string last_binding_;
-    std::uint64_t steps_ = 0, updates_ = 0, updates_when_settled_ = 0;
+    int substeps_ = 1; ///< of sound in this step
+    std::uint64_t steps_ = 0, sound_steps_ = 0, updates_ = 0, updates_when_settled_ = 0;
     std::map<std::string, std::uint64_t> binding_;
 };
 

@@ -288,6 +288,7 @@ RunCost Recorder::cost_so_far() const
     RunCost cost;
     cost.threads = options_.threads;
     cost.steps = simulation_.steps();
+    cost.acoustic_steps = simulation_.sound_steps();
     cost.elements = static_cast<std::uint64_t>(simulation_.particles().count());
     cost.element_updates = static_cast<double>(simulation_.updates());
     cost.time_step_binding = simulation_.binding_limits();

@@ -71,6 +71,7 @@ nlohmann::ordered_json cost_as_json(const RunCost& cost)
             {"guards_s", number(cost.guard_seconds)},
             {"threads", cost.threads},
             {"steps", cost.steps},
+            {"acoustic_steps", cost.acoustic_steps},
             {"elements", cost.elements},
             {"updates_per_core_s", core_seconds > 0.0 ? number(cost.element_updates / core_seconds) : number(0.0)},
             {"peak_bytes", number(cost.peak_bytes)},

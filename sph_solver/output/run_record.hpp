@@ -58,8 +58,9 @@ struct RunCost
     double guard_seconds = 0;  ///< of the wall time: the guards
     int threads = 1;
     std::uint64_t steps = 0;
-    std::uint64_t elements = 0; ///< particles
-    double element_updates = 0; ///< sum over the steps of the particles updated in each
+    std::uint64_t acoustic_steps = 0; ///< of sound: as many as steps of the flow, or a few times as many
+    std::uint64_t elements = 0;       ///< particles
+    double element_updates = 0;       ///< sum of the particles updated in each step of sound or of heat
     double peak_bytes = 0;
     std::map<std::string, std::uint64_t> time_step_binding; ///< criterion → number of steps that it bound
 

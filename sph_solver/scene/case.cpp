@@ -160,6 +160,7 @@ Numerics numerics_from(const json& table)
     numerics.sound_speed_factor = table.at("sound_speed_factor");
     numerics.reference_speed = optional_number(table, "reference_speed");
     numerics.time_step_factor = table.at("time_step_factor");
+    numerics.acoustic_substeps = table.at("acoustic_substeps");
     numerics.thermal_time_step_factor = table.at("thermal_time_step_factor");
     numerics.skin = table.at("skin");
     numerics.position_jitter = table.value("position_jitter", 0.0);

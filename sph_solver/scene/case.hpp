@@ -191,6 +191,7 @@ struct Numerics
     double sound_speed_factor = 10;        ///< sound speed / greatest expected speed
     std::optional<double> reference_speed; ///< greatest expected speed [m/s]
     double time_step_factor = 1;
+    int acoustic_substeps = 1; ///< most steps of sound in a step of all else
     double thermal_time_step_factor = 1;
     double skin = 0;                     ///< extra radius of the neighbour list / particle spacing
     double position_jitter = 0;          ///< greatest random displacement at the start / particle spacing

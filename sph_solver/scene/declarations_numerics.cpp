@@ -84,6 +84,13 @@ Table numerics_declaration()
              .above(0)
              .at_most(10)
              .or_else(1.0),
+         plain(
+             "acoustic_substeps", Type::integer,
+             "most steps by which sound is followed within one step of all else, with a free surface; 1 = as all else")
+             .at_least(1)
+             .at_most(16)
+             .or_else(4)
+             .in_paper(1),
          quantity("thermal_time_step_factor", "1", "the thermal time-step limit is multiplied by it")
              .above(0)
              .at_most(10)

@@ -51,7 +51,8 @@ Case molten_block(std::size_t particles, const MeltPoolScene& scene)
     definition.numerics.artificial_viscosity = scene.artificial_viscosity;
     definition.numerics.artificial_stress = scene.artificial_stress;
     definition.numerics.skin = 0.3;
-    definition.numerics.reference_speed = 2.0;
+    definition.numerics.acoustic_substeps = scene.acoustic_substeps;
+    definition.numerics.reference_speed = 11.6; // of recoil at the boiling point, as in the tracks
     definition.time = {1.0, 1.0};
     return definition;
 }
@@ -69,6 +70,10 @@ public:
     }
     void step() override { simulation_.step(1.0); }
     std::size_t count() const override { return static_cast<std::size_t>(simulation_.particles().count()); }
+    double updates() const override
+    {
+        return static_cast<double>(simulation_.sound_steps()) * static_cast<double>(count());
+    }
     std::size_t bytes() const override
     {
         return simulation_.particles().bytes() + simulation_.neighbourhood().list().bytes() + pass_memory_bytes();

@@ -73,10 +73,15 @@ public:
         }
         sort();
         sum_up();
+        ++steps_;
     }
     std::size_t count() const override
     {
         return state_.x.size();
+    }
+    double updates() const override
+    {
+        return static_cast<double>(steps_) * static_cast<double>(count());
     }
     std::size_t bytes() const override
     {
@@ -167,6 +172,7 @@ private:
     State state_;
     std::vector<double> du_, dv_, dw_, rate_;
     std::vector<std::size_t> begin_;
+    std::size_t steps_ = 0;
 };
 
 } // namespace

@@ -57,11 +57,16 @@ public:
         }
         neighbourhood_.update(particles_, mobility_);
         sum_up();
+        ++steps_;
     }
 
     std::size_t count() const override
     {
         return static_cast<std::size_t>(particles_.count());
+    }
+    double updates() const override
+    {
+        return static_cast<double>(steps_) * static_cast<double>(count());
     }
     std::size_t bytes() const override
     {
@@ -122,6 +127,7 @@ private:
     VectorField& acceleration_;
     WendlandC2 kernel_;
     Neighbourhood neighbourhood_;
+    std::size_t steps_ = 0;
 };
 
 } // namespace

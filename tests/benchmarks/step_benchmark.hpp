@@ -15,6 +15,7 @@ public:
     virtual ~StepBenchmark() = default;
     virtual void step() = 0;
     virtual std::size_t count() const = 0;
+    virtual double updates() const = 0;     ///< of particles so far: one each time that sound moves one on
     virtual std::size_t bytes() const = 0;  ///< memory of particles, lists and passes together
     virtual double neighbours() const = 0;  ///< mean number within the support; 0 where it is not counted
     virtual std::size_t builds() const = 0; ///< of the neighbour list, so far
@@ -29,6 +30,7 @@ struct MeltPoolScene
     double shifting = 0.0;
     double artificial_viscosity = 0.0;
     double artificial_stress = 0.0;
+    int acoustic_substeps = 1;
 };
 
 using MakePlainStep = std::unique_ptr<StepBenchmark> (*)(std::size_t particles);

@@ -42,6 +42,7 @@ inline Numerics default_numerics()
     numerics.density_diffusion = 0.1;
     numerics.shifting = 1.0;
     numerics.skin = 0.3;
+    numerics.acoustic_substeps = 4;
     numerics.background_pressure_factor = 0.1;
     return numerics;
 }

@@ -11,7 +11,7 @@ def test_quick_benchmarks_give_every_key():
     done = subprocess.run([str(ROOT / "cupel"), "bench", "--quick", "--json", "--repetitions", "1"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     table = json.loads(done.stdout)
-    for key in ("plain_float", "plain_double", "full_step", "naive_plain"):
+    for key in ("plain_float", "plain_double", "full_step", "full_step_one_rate", "naive_plain"):
         assert table[key]["1e4"] > 0
     assert table["float_error"]["1e4"] < 1e-5
     assert table["models"]["flow"]["bytes"] > 0

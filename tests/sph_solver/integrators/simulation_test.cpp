@@ -6,36 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include "small_scenes.hpp"
+#include "simulated.hpp"
 
 namespace cupel
 {
 namespace
 {
 
-using small_scenes::pool;
-
-Simulation simulate(const Case& definition, int steps)
-{
-    Simulation simulation(place_particles(definition));
-    simulation.start();
-    for (int step = 0; step < steps; ++step)
-        simulation.step(1.0);
-    return simulation;
-}
-
-Case heavy_pool()
-{
-    Case definition = pool();
-    definition.physics = {"flow", "gravity"};
-    definition.gravity = {0.3, 0, -1};
-    return definition;
-}
-
-double mass_of(const Particles& particles)
-{
-    return ordered_sum(particles.count(), [&](Index i) { return particles.mass[i]; });
-}
+using namespace small_scenes;
 
 TEST(Simulation, PoolAtRestStaysAtRest)
 {
@@ -78,28 +56,7 @@ TEST(Simulation, MechanicalBooksHoldEveryWork)
 TEST(Simulation, SettlingThenGoingOnEqualsLoadingThenGoingOn)
 {
     Simulation unbroken = simulate(heavy_pool(), 60);
-    unbroken.settle();
-    std::map<std::string, double> numbers;
-    unbroken.save(numbers);
-
-    Simulation resumed(place_particles(heavy_pool()));
-    Particles& to = resumed.particles();
-    const Particles& from = unbroken.particles();
-    for (std::size_t k = 0; k < from.scalars().size(); ++k)
-        to.scalars()[k]->values = from.scalars()[k]->values;
-    for (std::size_t k = 0; k < from.vectors().size(); ++k) {
-        to.vectors()[k]->x = from.vectors()[k]->x;
-        to.vectors()[k]->y = from.vectors()[k]->y;
-        to.vectors()[k]->z = from.vectors()[k]->z;
-    }
-    to.kind = from.kind;
-    to.material = from.material;
-    to.identity = from.identity;
-    to.surface_parent = from.surface_parent;
-    to.rebuild_places();
-    resumed.load(numbers);
-    resumed.settle();
-
+    Simulation resumed = resume(unbroken, heavy_pool());
     for (int step = 0; step < 60; ++step) {
         unbroken.step(1.0);
         resumed.step(1.0);
@@ -170,19 +127,10 @@ TEST(Simulation, SurfaceTensionDrivesALightPhaseAsTheHeavyOne)
     EXPECT_LT(light, 2.0 * heavy);
 }
 
-/// A disc of liquid in nothing, at rest, for as long as sound takes to cross it some tens of times.
+/// For as long as sound takes to cross it some tens of times.
 TEST(Simulation, DropInNothingHasItsLaplacePressureAndRests)
 {
-    Case definition = pool(2, 0.05);
-    definition.physics = {"flow", "surface_tension"};
-    definition.domain.lower = {0, 0, -0.5};
-    definition.domain.boundaries[5]->kind = BoundaryKind::wall;
-    definition.materials.at("liquid").surface_tension = 1.0;
-    Body& body = definition.bodies.front();
-    body.shape = BodyShape::sphere;
-    body.center = {1, 0, 0.5};
-    body.radius = 0.4;
-    const Simulation simulation = simulate(definition, 600);
+    const Simulation simulation = simulate(drop_in_nothing(), 600);
     const Particles& particles = simulation.particles();
     double pressure = 0.0, excess = 0.0, fastest = 0.0;
     Index inside = 0;

@@ -26,6 +26,7 @@ RunRecord some_record()
     record.ledger_details["energy"] = {{"laser_absorbed", 3.0}};
     record.cost.threads = 2;
     record.cost.steps = 100;
+    record.cost.acoustic_steps = 400;
     record.cost.elements = 50;
     record.cost.element_updates = 5000;
     record.cost.wall_seconds = 5.0;
@@ -55,6 +56,8 @@ TEST_F(RunRecordFile, HoldsWhatTheResultNeeds)
     EXPECT_DOUBLE_EQ(read["ledgers"]["energy"]["closure"], 0.5 / 3.0);
     EXPECT_DOUBLE_EQ(read["cost"]["updates_per_core_s"], 500.0);
     EXPECT_EQ(read["cost"]["time_step_binding"]["viscous"], 10);
+    EXPECT_EQ(read["cost"]["steps"], 100);
+    EXPECT_EQ(read["cost"]["acoustic_steps"], 400);
     EXPECT_EQ(read["cost"]["output_s"], 0.25);
     EXPECT_EQ(read["cost"]["guards_s"], 0.05);
     EXPECT_FALSE(read["host"]["name"].get<std::string>().empty());

@@ -1,0 +1,56 @@
+/// The steps in which a free-surface flow follows sound while all else is held.
+#include "integrators/free_surface_flow.hpp"
+#include "models/sound.hpp"
+
+namespace cupel::inline CUPEL_ENGINE
+{
+
+/// Shifting moves particles for the whole of a step. What that carries between them is found in the middle of it, where
+/// their places are the mean of those on the way.
+void FreeSurfaceFlow::evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step)
+{
+    const bool exchanges = shift_ && step.halfway;
+    const ContinuityOfSound continuity{mobility_,
+                                       particles_.density,
+                                       particles_.velocity,
+                                       correction_,
+                                       carried_load_ ? &surface_->fields().delta : nullptr,
+                                       density_rate_,
+                                       replaced_rate_};
+    const auto sum = [&](const auto&... others) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...);
+    };
+    extrapolate_velocity(neighbourhood, exchanges);
+    if (exchanges) {
+        sum_with_exchange(neighbourhood, sum);
+        exchange_mass(neighbourhood, step.whole);
+        exchanged_ = true;
+    }
+    else
+        sum();
+    compress(neighbourhood, {step.time_step, 0.0, exchanges ? step.whole : 0.0});
+    extrapolate_pressure(neighbourhood);
+    find_pressure_force(neighbourhood, step.last);
+    book_walls(neighbourhood, step.time_step);
+    sound_ahead_ += step.time_step;
+}
+
+/// The force of pressure, and before the step ends the gradient of density by which it then diffuses.
+void FreeSurfaceFlow::find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient)
+{
+    const bool finds_gradient = density_gradient_ && with_density_gradient;
+    const auto sum = [&](auto with_walls) {
+        const PressureForce<with_walls()> force{mobility_,           particles_.volume, *excess_pressure_,
+                                                particles_.velocity, pressure_force_,   wall_power_};
+        const auto sum_all = [&](const auto&... others) {
+            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), force, others...);
+        };
+        finds_gradient ? sum_all(ScalarGradient{mobility_, particles_.density, *density_gradient_}) : sum_all();
+    };
+    neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});
+    if (!finds_gradient) return;
+    neighbourhood.for_each_moving(
+        [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
+}
+
+} // namespace cupel::inline CUPEL_ENGINE
