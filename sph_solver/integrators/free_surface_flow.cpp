@@ -42,7 +42,7 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
             energy_rate_ = &particles_.add_scalar({"shifting_energy_rate", "W"});
         }
     }
-    if (load_ && scene.definition.numerics.acoustic_substeps > 1) hold_surface_forces();
+    if (load_ && follows_sound() && scene.definition.numerics.acoustic_substeps > 1) hold_surface_forces();
     start_hydrostatic();
 }
 

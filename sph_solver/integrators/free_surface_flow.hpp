@@ -16,7 +16,12 @@ public:
 
     void drift(const Neighbourhood& neighbourhood, double time_step) override;
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
-    bool follows_sound() const override { return true; }
+    /// Not where liquid wets a wall: the load at a contact line is noise of the size of 1/Δx, and held for several
+    /// steps of sound it feeds that noise.
+    bool follows_sound() const override
+    {
+        return !(scene_.definition.requires_physics("wetting") && particles_.has("wall_normal"));
+    }
     void evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step) override;
     void reset(Index place) override;
 

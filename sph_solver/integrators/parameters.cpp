@@ -120,8 +120,6 @@ TimeStepLimits derive_time_step_limits(const Scene& scene, const FlowParameters&
     if (scene.definition.requires_physics("surface_tension"))
         limits["capillary"] = 0.4 * std::sqrt(lightest * dx * dx * dx /
                                               (2.0 * std::numbers::pi * scene.materials[0].surface_tension.value()));
-    // Never the least at a Mach number of 0.1, but where sound takes steps of its own.
-    if (parameters.reference_speed > 0.0) limits["convective"] = 0.25 * dx / parameters.reference_speed;
     for (auto& [name, limit] : limits)
         limit *= scene.definition.numerics.time_step_factor;
     return limits;

@@ -25,7 +25,7 @@ FlowParameters derive_flow_parameters(const Scene& scene);
 /// third).
 ///
 ///   acoustic   0.4 Δx / c₀ (0.35 with a free surface)      viscous   0.125 ρ h²/μ
-///   capillary  0.4 √(ρ Δx³ / 2πσ)                          convective  0.25 Δx / U of the greatest speed expected
+///   capillary  0.4 √(ρ Δx³ / 2πσ)
 using TimeStepLimits = std::map<std::string, double>;
 TimeStepLimits derive_time_step_limits(const Scene& scene, const FlowParameters& parameters);
 

@@ -34,7 +34,7 @@ FAULTS = {
 }
 
 
-# A melt that goes well for thousands of steps, until a beam that nothing could bear goes on.
+# A melt that goes well for some thousand steps, until a beam that nothing could bear goes on.
 LATE_FAULT = ("initial.temperature=2400 K", "laser.power=1 MW", "laser.start=1 ms")
 
 
@@ -91,7 +91,7 @@ def test_the_last_good_state_does_not_depend_on_when_checkpoints_were_written(tm
     stopped_run(case, often, "--checkpoint-every", "0")
     stopped_run(case, never, "--checkpoint-every", "1000")
     assert "by way of checkpoint_000000000000.h5" in (never / "log.txt").read_text()
-    assert newest_checkpoint(often).name == newest_checkpoint(never).name and step_of(newest_checkpoint(never)) > 5000
+    assert newest_checkpoint(often).name == newest_checkpoint(never).name and step_of(newest_checkpoint(never)) > 2000
     one, other = checkpoint_fields(newest_checkpoint(often)), checkpoint_fields(newest_checkpoint(never))
     assert one.keys() == other.keys()
     assert not [name for name in one if not np.array_equal(one[name], other[name])]

@@ -67,6 +67,15 @@ TEST(StepsOfSound, AreCountedBesideTheStepsAndAsUpdates)
     EXPECT_EQ(simulation.binding_limits().at("acoustic"), 10u);
 }
 
+TEST(StepsOfSound, AreOneWhereLiquidWetsAWall)
+{
+    Case definition = swinging_drop(4);
+    definition.physics.push_back("wetting");
+    definition.materials.at("liquid").contact_angle = 1.0;
+    const Simulation simulation = simulate(definition, 5);
+    EXPECT_EQ(simulation.sound_steps(), simulation.steps());
+}
+
 TEST(StepsOfSound, AreAsManyAsAllElseAllows)
 {
     Case definition = swinging_drop(16);
