@@ -40,8 +40,12 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
             mean_density_ += material.density / static_cast<double>(scene.materials.size());
     }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
-    if (with_tension_ || with_marangoni_ || with_recoil_ || shifts)
-        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility);
+    const bool loads = with_tension_ || with_recoil_;
+    // Melt among its own solid is films and necks of a few particles: too little for a field to be carried in.
+    band_bears_load_ = loads && !scene.two_phase && scene.definition.requires_physics("wetting");
+    if (loads || with_marangoni_ || shifts)
+        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
+                                                    loads && !scene.two_phase && !band_bears_load_);
     if (with_recoil_) {
         const Material& metal = scene.materials.front();
         vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),
@@ -54,11 +58,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
         artificial_force_ = &particles_.add_vector({"artificial_force", "N"});
     if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
-    if (with_tension_ || with_recoil_) {
-        load_ = &particles_.add_scalar({"surface_load", "Pa"});
-        // The contact angle is a curvature of the size of 1/Δx at the contact line, which takes a force in the band.
-        band_bears_load_ = scene.two_phase || scene.definition.requires_physics("wetting");
-    }
+    if (loads) load_ = &particles_.add_scalar({"surface_load", "Pa"});
     if (band_bears_load_) {
         mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
         load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
@@ -202,6 +202,11 @@ void Flow::add_cohesion(const Neighbourhood& neighbourhood)
                            temperature_, *unresolved_, force_});
 }
 
+double Flow::tension(Index i) const
+{
+    return mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference;
+}
+
 void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_known)
 {
     if (!load_) return;
@@ -211,9 +216,7 @@ void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_kno
     neighbourhood.for_each_moving([&](Index i) {
         double load = 0.0;
         if (surface.delta[i] > 0.0) {
-            if (with_tension_)
-                load += surface.curvature[i] *
-                        (mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference);
+            if (with_tension_) load += surface.curvature[i] * tension(i);
             if (with_recoil_) load += recoil_pressure(vapour_pressure_, (*mean_temperature_)[i]);
         }
         (*load_)[i] = load;
@@ -237,6 +240,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             if (band_bears_load_)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
+            if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
             by_surface += (1.0 / particles_.density[i]) * force_density;
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);

@@ -150,6 +150,8 @@ protected:
     bool band_bears_load_ = false;
 
 private:
+    double tension(Index i) const; ///< σ at a particle of the surface, N/m
+
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;

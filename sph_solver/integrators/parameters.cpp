@@ -99,7 +99,6 @@ FlowParameters derive_flow_parameters(const Scene& scene)
 
     const double sound_speed = numerics.sound_speed.value_or(numerics.sound_speed_factor * parameters.reference_speed);
     parameters.equation_of_state = {sound_speed, numerics.formulation == "paper" ? 7.0 : 1.0};
-    parameters.transport = 0.2 * numerics.background_pressure_factor * sound_speed * scene.spacing;
     return parameters;
 }
 

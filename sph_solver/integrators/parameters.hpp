@@ -16,7 +16,6 @@ struct FlowParameters
     double reference_speed = 0;       ///< greatest speed that the scene's forces can be expected to drive, m/s
     std::string reference_speed_from; ///< the force that sets it
     EquationOfState equation_of_state{};
-    double transport = 0; ///< 0.2 β c₀ Δx of the transport velocity (two phases, momentum.hpp), m²/s
 };
 
 FlowParameters derive_flow_parameters(const Scene& scene);

@@ -18,25 +18,29 @@ bool has_kind(const Particles& particles, Kind kind)
 } // namespace
 
 SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
-                               const ScalarField& mobility)
+                               const ScalarField& mobility, bool sharpens)
     : particles_(*scene.particles), kernel_(kernel), mobility_{mobility}, profile_(kernel, scene.dimensions),
       fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),
-      needs_curvature_(scene.definition.requires_physics("surface_tension")),
-      sharpens_(!scene.two_phase && !scene.definition.requires_physics("wetting")), spacing_(scene.spacing),
-      h_(parameters.smoothing_length), full_companions_(lattice_companions(scene.dimensions))
+      needs_curvature_(scene.definition.requires_physics("surface_tension")), sharpens_(sharpens),
+      spacing_(scene.spacing), h_(parameters.smoothing_length), full_companions_(lattice_companions(scene.dimensions))
 {
     for (Index i = 0; i < particles_.count(); ++i)
         fields_.colour[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
     if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
         // A wall that the scene does not give an angle is neutral: the surface meets it at right angles.
-        const double contact_angle = scene.definition.requires_physics("wetting")
-                                         ? scene.materials.front().contact_angle.value()
-                                         : 0.5 * std::numbers::pi;
+        contact_angle_ = scene.definition.requires_physics("wetting") ? scene.materials.front().contact_angle.value()
+                                                                      : 0.5 * std::numbers::pi;
         wall_interface_.emplace(WallInterface{
-            mobility_, contact_angle, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
-            particles_.vector("wall_normal"), fields_, scalar("wall_weight_sum"), scalar("wall_depth_sum"),
-            particles_.add_vector({"wall_lateral_sum", "1"}), scalar("wall_primary_sum"), scalar("wall_other_sum")});
+            mobility_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
+            particles_.vector("wall_normal"), particles_.scalar("wall_depth"), fields_, scalar("wall_weight_sum"),
+            scalar("wall_cosine_sum"), scalar("wall_distance_sum"), scalar("wall_curvature_sum"),
+            particles_.add_vector({"wall_foot_sum", "1"}), particles_.add_vector({"wall_lateral_sum", "1"}),
+            scalar("wall_primary_sum"), scalar("wall_other_sum")});
+        if (needs_curvature_) {
+            wall_pull_ = &particles_.add_vector({"wall_pull", "1"});
+            contact_pull_ = &particles_.add_vector({"contact_pull", "1/m"});
+        }
     }
 }
 
@@ -82,6 +86,11 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
             if (mobility_.weight[i] != 0.0) finish_gradient(i);
     }
     find_band(neighbourhood);
+    if (!contact_pull_) return;
+    neighbourhood.for_each_moving([&](Index i) { contact_pull_->set(i, {}); });
+    for_each_pair(list, particles_, kernel_, wetting,
+                  ContactPull{mobility_, spacing_, wall_interface_->wall_normal, wall_interface_->wall_depth,
+                              wall_interface_->weight_sum, *wall_pull_, *contact_pull_});
 }
 
 void SurfaceTracker::finish_gradient(Index i)
@@ -103,7 +112,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
     const WallInterface& wall = *wall_interface_;
-    const double sine = std::sin(wall.contact_angle), cosine = std::cos(wall.contact_angle);
+    const double young = std::cos(contact_angle_);
     const double kernel_at_zero = kernel_(1e-9 * h_).value;
     const double volume = dimensions_ == 2 ? spacing_ * spacing_ : spacing_ * spacing_ * spacing_;
     for (const Index c : walls) {
@@ -112,6 +121,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
             const auto k = static_cast<std::size_t>(i);
             if (particles_.kind[k] != Kind::wall) continue;
             fields_.delta[i] = 0.0;
+            if (wall_pull_) wall_pull_->set(i, {});
             const Index parent = particles_.surface_parent[k];
             if (parent < 0) {
                 fields_.colour[i] = two_phase_ ? 0.0 : 1.0;
@@ -121,12 +131,24 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
             const Vector lateral = wall.lateral_sum[top];
             const double length = norm(lateral);
             if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0) {
-                const Vector inward = wall.wall_normal[i];
-                const double behind = -dot(particles_.position[i] - particles_.position[top], inward);
-                const double depth = wall.depth_sum[top] / wall.weight_sum[top] + behind * cosine;
+                const Vector inward = wall.wall_normal[i], along = (1.0 / length) * lateral;
+                const double scale = 1.0 / wall.weight_sum[top];
+                const double slope = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);
+                const double seen = scale * wall.cosine_sum[top];
+                const auto normal_of = [&](double cosine) {
+                    cosine = std::clamp(cosine, -1.0, 1.0);
+                    return std::sqrt(1.0 - cosine * cosine) * along + cosine * inward;
+                };
+                const double at_wall = std::clamp(seen - slope * scale * wall.distance_sum[top], -1.0, 1.0);
+                const Vector normal = normal_of(young);
+                const Vector chord = normal + normal_of(seen);
+                const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
+                const double depth = dot(foot, (1.0 / norm(chord)) * chord);
+                if (wall_pull_ && i == top)
+                    wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);
                 const double colour = std::clamp(0.5 + depth / spacing_, 0.0, 1.0);
                 fields_.colour[i] = colour;
-                fields_.normal.set(i, (sine / length) * lateral + cosine * inward);
+                fields_.normal.set(i, normal);
                 fields_.depth[i] = depth;
                 fields_.delta[i] = (two_phase_ ? 1.0 : 2.0 * colour) * profile_.plane_weight(depth);
             }

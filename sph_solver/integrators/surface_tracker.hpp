@@ -18,13 +18,15 @@ class SurfaceTracker
 {
 public:
     SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
-                   const ScalarField& mobility);
+                   const ScalarField& mobility, bool sharpens);
 
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
     ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, fields_}; }
     void find(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }
+    /// What times σ δ is the force of Young's equation on liquid at a contact line; null where there is none.
+    const VectorField* contact_pull() const { return contact_pull_; }
     /// A particle that has just melted or frozen is at no surface until the next update finds it there.
     void reset(Index place)
     {
@@ -56,6 +58,9 @@ private:
     bool sharpens_; ///< only where the load is carried into the liquid: a band that bears it does not stand the noise
     double spacing_, h_, full_companions_;
     std::optional<WallInterface> wall_interface_;
+    double contact_angle_ = 0.0; ///< through the primary liquid, rad
+    VectorField* wall_pull_ = nullptr;
+    VectorField* contact_pull_ = nullptr;
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

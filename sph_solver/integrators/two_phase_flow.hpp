@@ -22,20 +22,29 @@ public:
 private:
     void compress_walls(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood);
+    void carry_load(const Neighbourhood& neighbourhood, bool at_start);
 
     ScalarField& viscosity_;
     ScalarField& liquid_number_;          ///< that walls feel, 1/m³
     ScalarField& liquid_number_at_start_; ///< 1/m³
-    ScalarField& wall_pressure_;          ///< as compression has it (an extrapolation writes over a wall's), Pa
     ScalarField& transport_number_;       ///< rate of that number by the transport velocity, 1/(m³ s)
     ScalarField& wall_energy_;            ///< J
     ScalarField& transport_rate_;         ///< rate of a volume by the transport velocity, m³/s
     VectorField& transport_velocity_;
-    std::optional<CorrectionMatrix> correction_;            ///< for Marangoni flow and the traction
-    std::optional<VelocityGradientFields> stress_gradient_; ///< (μ − least μ) ∇v, Pa; only where viscosities differ
-    double lattice_number_;                                 ///< of particles in a volume, 1/m³
-    double least_viscosity_;                                ///< Pa·s
-    double stiffness_; ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
+    std::optional<CorrectionMatrix> correction_; ///< for Marangoni flow, the traction and the carried load
+    std::optional<VelocityGradientFields>
+        velocity_gradient_;                  ///< 1/s; after use (μ − least μ) ∇v, Pa, where viscosities differ
+    ScalarField* transport_speed_ = nullptr; ///< only where the case shifts particles
+    bool viscosities_differ_ = false;
+    // Only where a load is carried (interface_pressure.hpp):
+    ScalarField* carried_load_ = nullptr;
+    ScalarField* carried_load_of_other_ = nullptr; ///< on walls
+    ScalarField* carried_jump_ = nullptr;          ///< near contact lines
+    ScalarField* carried_mean_ = nullptr;
+    VectorField* carried_acceleration_ = nullptr;
+    double lattice_number_;  ///< of particles in a volume, 1/m³
+    double least_viscosity_; ///< Pa·s
+    double stiffness_;       ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

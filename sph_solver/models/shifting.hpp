@@ -10,6 +10,12 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
+/// U = min(20 s h γ̇, U_greatest), of which shifting velocities are a share      [m/s]
+inline double shifting_speed(double strength, double smoothing_length, double strain_rate, double greatest)
+{
+    return std::min(20.0 * strength * smoothing_length * strain_rate, greatest);
+}
+
 /// Shifting velocity (Lind et al. 2012, with the pairing correction of Sun et al. 2017), scaled by the local strain:
 ///
 ///   δu_i = −U_i 2h Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   U_i = min(20 s h γ̇_i, 0.1 c₀),   |δu_i| ≤ ½ U_i   [m/s]
@@ -57,8 +63,7 @@ struct ShiftingVelocity
             if (mobility.weight[i] == 0.0) continue;
             const double balance = companions[i] < fewest_companions ? 0.0 : exchange_balance(mass[i], lattice_mass);
             const double speed =
-                balance *
-                std::min(20.0 * strength * smoothing_length * velocity_gradient.strain_rate(i), greatest_speed);
+                balance * shifting_speed(strength, smoothing_length, velocity_gradient.strain_rate(i), greatest_speed);
             Vector u = (-2.0 * smoothing_length * speed) *
                        Vector{sum.concentration.x[lane], sum.concentration.y[lane], sum.concentration.z[lane]};
             const double limit = 0.5 * speed;

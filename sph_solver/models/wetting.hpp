@@ -9,48 +9,64 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-/// Wetting of a flat wall by normals on the wall particles.
+/// Wetting of a flat wall: what the wall's particles show of the surface that meets it, and what the surface's angle
+/// is.
 ///
 /// A wall particle near the contact line carries the normal that Young's equation asks for,
 ///
-///   n̂_w = sin θ t̂ + cos θ N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's normal,
+///   n̂_w = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
+///   normal,
 ///
-/// the signed depth s below the interface extrapolated to it, s = Σ W_wj δ_j (x_j + φ_j n̂_j − x_w)·n̂_w / Σ W_wj δ_j,
-/// and with it the colour c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in the smoothing of normals
-/// and in the curvature fit like any particle of the band, and the liquid's own normals are never overwritten. Sums are
-/// taken for the wall's surface layer; deeper layers continue it along the wall's normal: s + d cos θ.
+/// the signed depth s below the interface continued to it, and with it the colour c = clamp(½ + s/Δx) and the weight
+/// δ = w(s). It then takes part in the smoothing of normals and in the curvature fit like any particle of the band, and
+/// the liquid's own normals are never overwritten. With means ⟨ ⟩ over the band near the wall, of weight W_wj δ_j,
+///
+///   s = ⟨x_j + s_j n̂_j − x_w⟩·m̂,   m̂ the mean of n̂_w and the mean normal of the liquid: exact on a circle
+///
+/// and the angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
+/// curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
+///
+///   cos θ = ⟨n̂_j·N⟩ − κ_m ⟨d_j⟩
+///
+/// What it differs from θ_Y by pulls at the contact line (ContactPull). Sums are taken for the wall's surface layer.
+/// Near an overhanging surface the normals see too much of the wall: at 120° with a free surface the angle is taken for
+/// 15° less than it is, and the drop lets go of the wall (validation_cases/sessile_drop/README.md).
 /// Melt on its own solid has no such line to correct: there the metal's surface is followed as one, melt and solid
 /// together, and the edge of a pool stands where the metal melts, as in a volume-of-fluid model.
 /// Source: own derivation after the normal correction of Breinlinger et al. 2013, which the paper uses (section 2.5.2).
 struct WallInterface
 {
     Mobility mobility;
-    double contact_angle;    ///< through the primary liquid, rad
     double reach;            ///< liquid further than this from the wall is not asked, m
     double smallest_delta;   ///< 1/m
     double smallest_lateral; ///< of −∇c, 1/m
     const Particles& particles;
     const VectorField& wall_normal;
+    const ScalarField& wall_depth; ///< below the wall's plane, m
     SurfaceFields surface;
-    ScalarField& weight_sum;  ///< Σ W δ
-    ScalarField& depth_sum;   ///< Σ W δ s
-    VectorField& lateral_sum; ///< Σ W δ t̂
-    ScalarField& primary_sum; ///< Σ W over the primary liquid
-    ScalarField& other_sum;   ///< Σ W over the surrounding
+    ScalarField& weight_sum;    ///< Σ W δ
+    ScalarField& cosine_sum;    ///< Σ W δ n̂·N
+    ScalarField& distance_sum;  ///< Σ W δ d, d above the wall's plane
+    ScalarField& curvature_sum; ///< Σ W δ κ, κ of the step before
+    VectorField& foot_sum;      ///< Σ W δ (x + s n̂ − x_w)
+    VectorField& lateral_sum;   ///< Σ W δ t̂
+    ScalarField& primary_sum;   ///< Σ W over the primary liquid
+    ScalarField& other_sum;     ///< Σ W over the surrounding
 
     struct Near
     {
-        VectorLanes position, wall_normal;
+        VectorLanes wall_normal;
+        Lanes wall_depth;
     };
     struct Far
     {
-        Real liquid, primary, delta, depth; ///< liquid, primary: 1 or 0
+        Real liquid, primary, delta, depth, curvature; ///< liquid, primary: 1 or 0
         VectorOf<Real> colour_gradient, normal;
     };
     struct Sum
     {
-        Lanes weight{}, depth{}, primary{}, other{};
-        VectorLanes lateral{};
+        Lanes weight{}, cosine{}, distance{}, curvature{}, primary{}, other{};
+        VectorLanes lateral{}, foot{};
     };
 
     bool stands_for_surface(Index i) const
@@ -62,13 +78,13 @@ struct WallInterface
     {
         return none_in(cluster, [&](Index i) { return stands_for_surface(i); });
     }
-    Near near(Index first) const { return {lanes(particles.position, first), lanes(wall_normal, first)}; }
+    Near near(Index first) const { return {lanes(wall_normal, first), lanes(wall_depth, first)}; }
     Far far(Index j) const
     {
-        return {
-            real(mobility.weight[j]),         particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-            real(surface.delta[j]),           real(surface.depth[j]),
-            real(surface.colour_gradient[j]), real(surface.normal[j])};
+        return {real(mobility.weight[j]),   particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
+                real(surface.delta[j]),     real(surface.depth[j]),
+                real(surface.curvature[j]), real(surface.colour_gradient[j]),
+                real(surface.normal[j])};
     }
     bool ignores(const Far& j) const { return j.liquid == 0; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -82,22 +98,84 @@ struct WallInterface
         const Lanes length = square_root(dot(along, along));
         const LaneMask takes_part = (length > Lanes(smallest_lateral)) & (height < Lanes(reach));
         const Lanes weight = select(takes_part, j.delta * pair.kernel, 0.0);
-        const VectorLanes lateral = (1.0 / (length + 1e-30)) * along;
-        const VectorLanes prescribed =
-            Lanes(std::sin(contact_angle)) * lateral + Lanes(std::cos(contact_angle)) * i.wall_normal;
-        const VectorLanes foot = broadcast(j.depth * j.normal) - pair.offset;
+        const VectorLanes normal = broadcast(j.normal);
         sum.weight += weight;
-        sum.depth += weight * dot(foot, prescribed);
-        sum.lateral += weight * lateral;
+        sum.cosine += weight * dot(normal, i.wall_normal);
+        sum.distance += weight * (height - i.wall_depth);
+        sum.curvature += weight * j.curvature;
+        sum.foot += weight * (broadcast(j.depth * j.normal) - pair.offset);
+        sum.lateral += (weight / (length + 1e-30)) * along;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const auto chosen = [&](Index i) { return stands_for_surface(i); };
         store_if(weight_sum, cluster, sum.weight, chosen);
-        store_if(depth_sum, cluster, sum.depth, chosen);
+        store_if(cosine_sum, cluster, sum.cosine, chosen);
+        store_if(distance_sum, cluster, sum.distance, chosen);
+        store_if(curvature_sum, cluster, sum.curvature, chosen);
+        store_if(foot_sum, cluster, sum.foot, chosen);
         store_if(lateral_sum, cluster, sum.lateral, chosen);
         store_if(primary_sum, cluster, sum.primary, chosen);
         store_if(other_sum, cluster, sum.other, chosen);
+    }
+};
+
+/// The force of Young's equation at a contact line, σ (cos θ_Y − cos θ) a length along the wall, as a force density in
+/// the liquid's surface band near the wall:
+///
+///   f = σ (cos θ_Y − cos θ) sin θ δ(s) δ_w(d) t̂,   δ_w = (1 − d/(2Δx))/Δx below a distance of d = 2Δx      [N/m³]
+///
+/// (the contact line force of Huber, Keller, Säckel, Hirschler, Kunz, Hassanizadeh, Nieken 2016). δ(s) and δ_w(d) have
+/// the integral one across the surface and the wall, which meet at θ: so does sin θ δ δ_w over the plane across the
+/// line. Sums take what the wall's surface layer knows, the more the more of the surface it sees.
+struct ContactPull
+{
+    Mobility mobility;
+    double spacing; ///< Δx, m
+    const VectorField& wall_normal;
+    const ScalarField& wall_depth;
+    const ScalarField& weight_sum; ///< Σ W δ of a wall particle
+    const VectorField& wall_pull;  ///< (cos θ_Y − cos θ) sin θ t̂ in the wall's surface layer
+    VectorField& pull;             ///< f/(σ δ), 1/m
+
+    struct Near
+    {};
+    struct Far
+    {
+        Real weight, depth;
+        VectorOf<Real> normal, pull;
+    };
+    struct Sum
+    {
+        Lanes weight{}, distance{};
+        VectorLanes pull{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index) const { return {}; }
+    Far far(Index j) const
+    {
+        const Vector p = wall_pull[j];
+        const bool counts = mobility.weight[j] == 0.0 && dot(p, p) > 0.0;
+        return {counts ? real(weight_sum[j]) : Real(0), real(wall_depth[j]), real(wall_normal[j]), real(p)};
+    }
+    bool ignores(const Far& j) const { return j.weight == 0; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const Lanes weight = j.weight * pair.kernel;
+        sum.weight += weight;
+        sum.distance += weight * (dot(pair.offset, broadcast(j.normal)) - Lanes(j.depth));
+        sum.pull += weight * broadcast(j.pull);
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane) {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0 || !(sum.weight[lane] > 0.0)) continue;
+            const double scale = 1.0 / sum.weight[lane], distance = std::max(0.0, scale * sum.distance[lane]);
+            const double share = std::max(0.0, 1.0 - 0.5 * distance / spacing) / spacing;
+            pull.set(i, (share * scale) * Vector{sum.pull.x[lane], sum.pull.y[lane], sum.pull.z[lane]});
+        }
     }
 };
 

@@ -165,7 +165,6 @@ Numerics numerics_from(const json& table)
     numerics.skin = table.at("skin");
     numerics.position_jitter = table.value("position_jitter", 0.0);
     numerics.without_saving = table.at("without_saving");
-    numerics.background_pressure_factor = table.at("background_pressure_factor");
     return numerics;
 }
 

@@ -196,7 +196,6 @@ struct Numerics
     double skin = 0;                     ///< extra radius of the neighbour list / particle spacing
     double position_jitter = 0;          ///< greatest random displacement at the start / particle spacing
     std::string without_saving = "none"; ///< what is computed in full all the same; "none" of the savings
-    double background_pressure_factor = 0;
 };
 
 struct Case

@@ -106,13 +106,7 @@ Table numerics_declaration()
              .or_else(0.0),
          choice("without_saving", {"none", "moving_momentum", "thermal_clock", "local_lists", "kept_sums"},
                 "computes in full what this saving leaves out, so that it can be measured (./cupel bench --savings)")
-             .or_else("none"),
-         quantity("background_pressure_factor", "1",
-                  "background pressure over rho c^2 that keeps the particles of two-phase runs evenly spaced; 0 = off")
-             .at_least(0)
-             .at_most(1)
-             .or_else(0.1)
-             .in_paper(0.0)},
+             .or_else("none")},
         {openfoam_declaration()}};
 }
 

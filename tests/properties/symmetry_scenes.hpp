@@ -43,7 +43,6 @@ inline Numerics default_numerics()
     numerics.shifting = 1.0;
     numerics.skin = 0.3;
     numerics.acoustic_substeps = 4;
-    numerics.background_pressure_factor = 0.1;
     return numerics;
 }
 
