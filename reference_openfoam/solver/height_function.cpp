@@ -12,8 +12,7 @@ namespace
 const scalar full = 0.99, empty_share = 0.01; // where a column counts as inside or outside
 const scalar turn = 0.02;                     // how far α may go back on the way: noise
 const scalar small_slope = 1e-3;              // at a side: below it the arc has no more to say than a straight line
-const int reach = 9; // cells on each side: a column along a steep interface passes through many, and those beside it
-                     // six, and the columns beside it stand two cells higher or lower
+const int reach = 9; // cells on each side: a column along a steep interface crosses many of them
 
 /// Mean over [from, to] of the height of an arc that has height 0 at z = 0 and sine of slope q(z) = start − κ z.
 scalar mean_of_arc(scalar start, scalar curvature, scalar from, scalar to)
