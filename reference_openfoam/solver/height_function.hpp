@@ -4,6 +4,9 @@
 ///   H = position of the interface in a column of cells along the axis nearest to its normal: Σ α Δ from full to empty
 ///   κ = −[H_xx (1 + H_y²) + H_yy (1 + H_x²) − 2 H_xy H_x H_y]/(1 + H_x² + H_y²)^{3/2}
 ///
+/// from three columns each way; where five are there and no edge between them is steeper than 45°, as the mean over the
+/// middle one of −∇·[∇H/(1 + |∇H|²)^½] with slopes of fourth order on its edges: (15 (H₁ − H₀) − (H₂ − H₋₁))/12Δ.
+///
 /// At a wall the row of heights behind it follows from the contact angle θ (Afkhami and Bussmann 2009 continue with the
 /// slope cotθ √(1 + H_y²) alone), here as an arc that meets the wall at θ; cotθ = 0 at symmetry planes and where
 /// nothing wets.
