@@ -23,7 +23,6 @@ NUMERICS = {
     "time_step_factor": 1.0,
     "courant_limit": 0.5,
     "interface_courant_limit": 0.3,
-    "interface_compression": 1.0,
     "height_functions": True,
     "curvature_smoothing_passes": 4,
     "curvature_averaging_passes": 1,
@@ -268,7 +267,6 @@ def _write_system(folder: Path, flow: bool) -> None:
         "ddtSchemes": {"default": "Euler"},
         "gradSchemes": {"default": "Gauss linear"},
         "divSchemes": {"default": "Gauss linear", "div(mass_flux,U)": "Gauss limitedLinearV 1",
-                       "div(phi,fraction)": "Gauss vanLeer", "div(compression)": "Gauss linear",
                        "div(phi,enthalpy)": "Gauss limitedLinear 1", "div(phi,enthalpy_upwind)": "Gauss upwind"},
         "laplacianSchemes": {"default": "Gauss linear orthogonal"},
         "interpolationSchemes": {"default": "linear"},
@@ -276,7 +274,6 @@ def _write_system(folder: Path, flow: bool) -> None:
     pressure = {"solver": "PCG", "preconditioner": "DIC", "tolerance": 1e-8, "relTol": 0.001, "maxIter": 500}
     write_dictionary(system/"fvSolution", {
         "solvers": {
-            "fraction": {"nLimiterIter": 3},
             "p_rgh": pressure,
             "p_rghFinal": pressure | {"tolerance": 1e-9, "relTol": 0.0},
             "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-8, "relTol": 0.0},

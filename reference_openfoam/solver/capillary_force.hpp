@@ -8,14 +8,14 @@
 /// of a step in proportion to mass. Solid metal has no mobile surface: the force carries the liquid fraction there.
 #pragma once
 
-#include "interface_geometry.hpp"
+#include "surface_temperature.hpp"
 
 namespace cupel
 {
 /// ∂S/∂n on faces [1/m]: shared by the capillary force and the recoil pressure.
 tmp<surfaceScalarField> interface_step_gradient(const Fields& fields);
 
-/// Adds σ κ ∂S/∂n to `force` [N/m³].
+/// Adds σ κ ∂S/∂n to `force` [N/m³]; `surface`: none where the scene has no temperature.
 void add_capillary_force(surfaceScalarField& force, const surfaceScalarField& interface_gradient, const Scene& scene,
-                         const Fields& fields, const InterfaceGeometry& geometry);
+                         const InterfaceGeometry& geometry, const SurfaceTemperature* surface);
 } // namespace cupel

@@ -14,7 +14,7 @@ struct FlowFields
     volVectorField velocity;          ///< U [m/s]
     volScalarField reduced_pressure;  ///< p_rgh = p − ρ g·x [Pa]
     surfaceScalarField flux;          ///< volume through each face [m³/s]
-    surfaceScalarField fraction_flux; ///< the primary material's share of it [m³/s], as MULES moved it
+    surfaceScalarField fraction_flux; ///< the primary material's share of it [m³/s], as it was moved
     volScalarField density;           ///< ρ [kg/m³]
     surfaceScalarField mass_flux;     ///< [kg/s]
     volScalarField gravity_potential; ///< g·x [m²/s²], g without its part along periodic axes
@@ -42,7 +42,7 @@ struct Fields
     autoPtr<FlowFields> flow;
     autoPtr<HeatFields> heat;
 
-    /// α limited to 0 … 1 (MULES keeps it there to about 1e-8).
+    /// α limited to 0 … 1 (transport keeps it there to about 1e-9).
     tmp<volScalarField> bounded_fraction() const;
     /// ρ = α ρ₁ + (1 − α) ρ₂ after α has moved.
     void update_density(const Scene& scene);

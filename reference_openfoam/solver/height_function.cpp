@@ -3,7 +3,6 @@
 
 #include "fixedGradientFvPatchFields.H"
 #include "height_function.hpp"
-#include "paraboloid_fit.hpp"
 #include "processorFvPatch.H"
 
 namespace cupel
@@ -12,21 +11,8 @@ namespace
 {
 const scalar full = 0.99, empty_share = 0.01; // where a column counts as inside or outside
 const scalar turn = 0.02;                     // how far α may go back on the way: noise
-const int fit_reach = 2;                      // columns on each side whose heights a paraboloid is fitted to,
-// with Gaussian weights of this width in cells. A wider fit of second order answers a zigzag of the surface with the
-// wrong sign and lets it grow: in a row of points −2 … 2 with weights exp(−d²/w²) from w = 1.5 on
-const scalar fit_width = 0.8;
-const scalar small_slope = 1e-3; // at a side: below it the arc has no more to say than a straight line
-const int reach = 9; // cells on each side: MULES spreads the interface over three or four, seen along a diagonal over
-                     // six, and the columns beside it stand two cells higher or lower
-
-/// First and second derivative at the middle of three points at −a, 0, b.
-void derivatives(scalar below, scalar here, scalar above, scalar a, scalar b, scalar& first, scalar& second)
-{
-    const scalar slope_below = (here - below) / a, slope_above = (above - here) / b;
-    first = (slope_below * b + slope_above * a) / (a + b);
-    second = 2 * (slope_above - slope_below) / (a + b);
-}
+const scalar small_slope = 1e-3;              // at a side: below it the arc has no more to say than a straight line
+const int reach = 9; // cells on each side: a column along a steep interface crosses many of them
 
 /// Mean over [from, to] of the height of an arc that has height 0 at z = 0 and sine of slope q(z) = start − κ z.
 scalar mean_of_arc(scalar start, scalar curvature, scalar from, scalar to)
@@ -83,6 +69,7 @@ HeightFunction::HeightFunction(const volScalarField& fraction, scalar spacing, s
             if (!continues || mag(outward[axis]) < 0.9 * mag(outward)) continue;
             Side& side = sides_[axis][outward[axis] > 0 ? 1 : 0];
             side.continues = true;
+            side.wets = wets;
             side.cotangent = wets ? Foam::cos(contact_angle) / Foam::sin(contact_angle) : 0;
         }
     }
@@ -142,11 +129,10 @@ scalar HeightFunction::slope(const scalar (&row)[3], int axis, int index) const
     return (row[to] - row[from]) / (below + above);
 }
 
-bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
-                                     scalar& curvature) const
+bool HeightFunction::stencil(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
+                             scalar (&heights)[3][3]) const
 {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
-    scalar heights[3][3] = {};
     const bool flat_x = grid_.line(x).count() == 1, flat_y = grid_.line(y).count() == 1; // a scene in a plane
     const auto is_behind = [this](int along, int index) {
         return !periodic_[along] && (index < 0 || index >= grid_.line(along).count());
@@ -185,98 +171,151 @@ bool HeightFunction::curvature_along(const std::vector<scalar>& fraction, const 
                                               grid_.line(y).widths[cell[y]]);
         }
     }
-    const auto distance = [this](int along, int index) { return spacing_between(along, index); };
-    scalar first_x = 0, second_x = 0, first_y = 0, second_y = 0, mixed = 0;
-    if (!flat_x)
-        derivatives(heights[0][1], heights[1][1], heights[2][1], distance(x, cell[x] - 1), distance(x, cell[x]),
-                    first_x, second_x);
-    if (!flat_y)
-        derivatives(heights[1][0], heights[1][1], heights[1][2], distance(y, cell[y] - 1), distance(y, cell[y]),
-                    first_y, second_y);
-    if (!flat_x && !flat_y) {
-        mixed = (heights[2][2] - heights[2][0] - heights[0][2] + heights[0][0]) /
-                ((distance(x, cell[x] - 1) + distance(x, cell[x])) * (distance(y, cell[y] - 1) + distance(y, cell[y])));
-    }
-    const scalar numerator =
-        second_x * (1 + sqr(first_y)) + second_y * (1 + sqr(first_x)) - 2 * mixed * first_x * first_y;
-    curvature = -numerator / std::pow(1 + sqr(first_x) + sqr(first_y), 1.5);
-    return mag(curvature) * spacing_ < 2; // a sphere smaller than a cell is noise
+    return true;
 }
 
-bool HeightFunction::curvature_of_fit(const std::vector<scalar>& fraction, const Index& cell, const vector& outward,
-                                      scalar& curvature) const
+bool HeightFunction::height_farther(const std::vector<scalar>& fraction, Index column, int along, int way, int axis,
+                                    int outward, scalar& position) const
 {
-    const auto centre = [this](const Index& place) {
-        return vector(grid_.line(0).centres[place[0]], grid_.line(1).centres[place[1]],
-                      grid_.line(2).centres[place[2]]);
-    };
-    const vector here = centre(cell);
-    std::vector<vector> points, footprints;
-    std::vector<scalar> weights;
-    std::vector<int> axes;
-    int flat_axis = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int last = grid_.line(axis).count() - 1;
-        if (last == 0)
-            flat_axis = axis;
-        else if (cell[axis] < fit_reach || cell[axis] > last - fit_reach)
-            return false; // the points that the side cuts off would be missed, and its contact angle
+    const BlockGrid::Line& line = grid_.line(along);
+    const int here = column[along], count = line.count();
+    int target = here + 2 * way;
+    if (periodic_[along])
+        target = inside_period(along, target);
+    else if (target < 0 || target >= count) {
+        const Side& side = sides_[along][way > 0];
+        if (!side.continues || side.cotangent != 0) return false;
+        target = way > 0 ? 2 * count - 1 - target : -1 - target; // its mirror image
     }
+    if (target < 0 || target >= count || mag(line.widths[target] - line.widths[here]) > 1e-3 * line.widths[here])
+        return false;
+    column[along] = target;
+    return height(fraction, column, axis, outward, position);
+}
+
+vector HeightFunction::slope_of_share(const std::vector<scalar>& fraction, const Index& cell) const
+{
+    vector slope(Zero);
     for (int axis = 0; axis < 3; ++axis) {
-        if (axis == flat_axis || mag(outward[axis]) < 0.3) continue;
-        const int x = (axis + 1) % 3, y = (axis + 2) % 3, side = outward[axis] > 0 ? 1 : -1;
-        for (int i = -fit_reach; i <= fit_reach; ++i)
-            for (int j = -fit_reach; j <= fit_reach; ++j) {
-                if ((x == flat_axis && i != 0) || (y == flat_axis && j != 0)) continue;
-                Index column = cell;
-                column[x] += i;
-                column[y] += j;
-                scalar position = 0;
-                if (column[x] < 0 || column[y] < 0 || column[x] >= grid_.line(x).count() ||
-                    column[y] >= grid_.line(y).count() || !height(fraction, column, axis, side, position))
-                    continue;
-                vector point = centre(column);
-                point[axis] = side * position;
-                const vector way = (point - here) / spacing_;
-                if (mag(way) > fit_reach + 1) continue;
-                points.push_back(point / spacing_);
-                weights.push_back(std::exp(-(magSqr(way) - sqr(way & outward)) / sqr(fit_width)));
-                axes.push_back(axis);
+        if (grid_.line(axis).count() == 1) continue;
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j) {
+                const scalar weight = (2 - mag(i)) * (2 - mag(j));
+                slope[axis] +=
+                    weight * (share_near(fraction, cell, axis, 1, i, j) - share_near(fraction, cell, axis, -1, i, j));
             }
+        slope[axis] /= spacing_between(axis, cell[axis] - 1) + spacing_between(axis, cell[axis]);
     }
-    ParaboloidFit surface(here / spacing_, outward, flat_axis);
-    if (!surface.fit(points, weights)) return false;
-    // a height is the mean over its column; its middle lies (H_xx + H_yy)/24 of a cell's area farther out
-    const scalar radius_term = surface.curvature() / (flat_axis < 0 ? 2 : 1);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const scalar along = max(mag(surface.normal(points[i])[axes[i]]), scalar(0.3));
-        const scalar hessian = radius_term * ((flat_axis < 0 ? 1 : 0) + 1 / sqr(along)) / along;
-        points[i][axes[i]] += (outward[axes[i]] > 0 ? 1 : -1) * hessian / 24;
-    }
-    if (!surface.fit(points, weights)) return false;
-    curvature = surface.curvature() / spacing_;
-    return mag(curvature) * spacing_ < 2;
+    return slope;
 }
 
-void HeightFunction::apply(volScalarField& curvature, const volScalarField& fraction,
-                           const volVectorField& gradient) const
+bool HeightFunction::best_stencil(const std::vector<scalar>& fraction, const Index& cell, const vector& slope,
+                                  Stencil& best) const
 {
-    const std::vector<scalar> shares = grid_.gathered(fraction.primitiveField());
-    const scalar near_interface = 1e-3 / spacing_;
-    forAll (curvature, cell) {
-        const vector& slope = gradient[cell];
-        if (mag(slope) < near_interface) continue;
-        std::array<int, 3> axes = {{0, 1, 2}};
-        std::sort(axes.begin(), axes.end(), [&slope](int one, int two) { return mag(slope[one]) > mag(slope[two]); });
-        scalar value = 0;
-        bool found = false;
-        for (int choice = 0; choice < 2 && !found; ++choice) {
-            const int axis = axes[choice];
-            if (mag(slope[axis]) < 0.3 * mag(slope)) break;
-            found = curvature_along(shares, grid_.index(cell), axis, slope[axis] > 0 ? -1 : 1, value);
+    std::array<int, 3> axes = {{0, 1, 2}};
+    std::sort(axes.begin(), axes.end(), [&slope](int one, int two) { return mag(slope[one]) > mag(slope[two]); });
+    for (int choice = 0; choice < 2; ++choice) {
+        best.axis = axes[choice];
+        if (mag(slope[best.axis]) < 0.3 * mag(slope)) return false;
+        best.outward = slope[best.axis] > 0 ? -1 : 1;
+        if (stencil(fraction, cell, best.axis, best.outward, best.heights)) {
+            const int x = (best.axis + 1) % 3, y = (best.axis + 2) % 3;
+            best.slope_x = (best.heights[2][1] - best.heights[0][1]) /
+                           (spacing_between(x, cell[x] - 1) + spacing_between(x, cell[x]));
+            best.slope_y = (best.heights[1][2] - best.heights[1][0]) /
+                           (spacing_between(y, cell[y] - 1) + spacing_between(y, cell[y]));
+            return true;
         }
-        if (found || curvature_of_fit(shares, grid_.index(cell), -slope / mag(slope), value)) curvature[cell] = value;
     }
-    curvature.correctBoundaryConditions();
+    return false;
 }
+
+vector HeightFunction::outward_normal(const std::vector<scalar>& fraction, const Index& cell) const
+{
+    vector slope = slope_of_share(fraction, cell);
+    Stencil columns;
+    if (best_stencil(fraction, cell, slope, columns)) {
+        vector normal(Zero);
+        normal[columns.axis] = columns.outward;
+        normal[(columns.axis + 1) % 3] = -columns.slope_x;
+        normal[(columns.axis + 2) % 3] = -columns.slope_y;
+        return normal;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (int end = 0; end < 2; ++end) {
+            const Side& side = sides_[axis][end];
+            if (!side.wets || cell[axis] != (end == 0 ? 0 : grid_.line(axis).count() - 1)) continue;
+            vector along(slope);
+            along[axis] = 0;
+            if (mag(along) < 1e-3 * mag(slope)) continue;
+            slope = along / mag(along);
+            slope[axis] = (end == 0 ? -1 : 1) * side.cotangent;
+        }
+    return mag(slope) > 0 ? vector(-slope) : vector(0, 0, 1);
+}
+
+bool HeightFunction::surface_value(const std::vector<scalar>& fraction, const std::vector<scalar>& values,
+                                   scalar weight_inside, const Index& cell, scalar& value, vector& gradient) const
+{
+    Stencil columns;
+    if (!best_stencil(fraction, cell, slope_of_share(fraction, cell), columns)) return false;
+    const int axis = columns.axis, x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const BlockGrid::Line& line = grid_.line(axis);
+    // from one side in a straight line through its last two cells, if both are that side's
+    const auto continued = [&](Index column, int first, int step, bool inside, scalar height) {
+        const auto in_scene = [&](int k) { return periodic_[axis] || (k >= 0 && k < line.count()); };
+        const auto place = [&](int k) {
+            column[axis] = inside_period(axis, k);
+            return grid_.flat(column);
+        };
+        const scalar here = values[place(first)];
+        if (!in_scene(first + step) || (fraction[place(first + step)] > 0.5) != inside) return here;
+        const scalar rate = (here - values[place(first + step)]) / spacing_between(axis, step > 0 ? first : first - 1);
+        return here + rate * mag(height - line.centres[inside_period(axis, first)]);
+    };
+    scalar at_surface[3][3] = {};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            Index column = cell;
+            column[x] += grid_.line(x).count() == 1 ? 0 : i - 1;
+            column[y] += grid_.line(y).count() == 1 ? 0 : j - 1;
+            const auto is_behind = [&](int along) {
+                return !periodic_[along] && (column[along] < 0 || column[along] >= grid_.line(along).count());
+            };
+            if (is_behind(x) || is_behind(y)) continue;
+            column[x] = inside_period(x, column[x]);
+            column[y] = inside_period(y, column[y]);
+            const scalar height = columns.outward * columns.heights[i][j];
+            const int above =
+                int(std::upper_bound(line.centres.begin(), line.centres.end(), height) - line.centres.begin());
+            const int in = columns.outward > 0 ? above - 1 : above, out = columns.outward > 0 ? above : above - 1;
+            const bool has_in = in >= 0 && in < line.count(), has_out = out >= 0 && out < line.count();
+            const scalar from_inside = has_in ? continued(column, in, -columns.outward, true, height) : 0;
+            const scalar from_outside = has_out ? continued(column, out, columns.outward, false, height) : from_inside;
+            at_surface[i][j] = has_in ? weight_inside * from_inside + (1 - weight_inside) * from_outside : from_outside;
+        }
+    value = at_surface[1][1];
+    const scalar row_x[3] = {at_surface[0][1], at_surface[1][1], at_surface[2][1]};
+    const scalar rate_x = slope(row_x, x, cell[x]), rate_y = slope(at_surface[1], y, cell[y]);
+    // the surface's metric 1 + H_x², H_x H_y, 1 + H_y² turned round
+    const scalar metric_x = 1 + sqr(columns.slope_x), metric_y = 1 + sqr(columns.slope_y),
+                 mixed = columns.slope_x * columns.slope_y, determinant = metric_x * metric_y - sqr(mixed);
+    gradient[x] = (metric_y * rate_x - mixed * rate_y) / determinant;
+    gradient[y] = (metric_x * rate_y - mixed * rate_x) / determinant;
+    gradient[axis] = columns.outward * (columns.slope_x * gradient[x] + columns.slope_y * gradient[y]);
+    return true;
+}
+
+scalar HeightFunction::share_near(const std::vector<scalar>& fraction, Index cell, int axis, int ahead, int i,
+                                  int j) const
+{
+    const std::array<int, 3> offsets = {{ahead, i, j}};
+    for (int part = 0; part < 3; ++part) {
+        const int along = (axis + part) % 3, last = grid_.line(along).count() - 1;
+        cell[along] = inside_period(along, cell[along] + offsets[part]);
+        cell[along] = min(max(cell[along], 0), last);
+    }
+    return fraction[grid_.flat(cell)];
+}
+
 } // namespace cupel

@@ -4,6 +4,9 @@
 ///   H = position of the interface in a column of cells along the axis nearest to its normal: Σ α Δ from full to empty
 ///   κ = −[H_xx (1 + H_y²) + H_yy (1 + H_x²) − 2 H_xy H_x H_y]/(1 + H_x² + H_y²)^{3/2}
 ///
+/// from three columns each way; where five are there and no edge between them is steeper than 45°, as the mean over the
+/// middle one of −∇·[∇H/(1 + |∇H|²)^½] with slopes of fourth order on its edges: (15 (H₁ − H₀) − (H₂ − H₋₁))/12Δ.
+///
 /// At a wall the row of heights behind it follows from the contact angle θ (Afkhami and Bussmann 2009 continue with the
 /// slope cotθ √(1 + H_y²) alone), here as an arc that meets the wall at θ; cotθ = 0 at symmetry planes and where
 /// nothing wets.
@@ -30,19 +33,56 @@ public:
     /// Puts κ into the cells of `curvature` near the interface wherever heights give it.
     void apply(volScalarField& curvature, const volScalarField& fraction, const volVectorField& gradient) const;
 
+    /// Normal of the interface in a cell toward the surrounding, of any length: from heights along the axis nearest to
+    /// it, or else along the second nearest; where there are none, from ∇α over 3 × 3 × 3 cells (Youngs 1982), at a
+    /// wall turned to its contact angle.
+    vector outward_normal(const std::vector<scalar>& fraction, const BlockGrid::Index& cell) const;
+
+    /// Value at the interface of a field `values` that may have a kink there, and its gradient along the interface
+    /// (surface_temperature.hpp); false, and nothing changed, without clean columns around the cell.
+    bool surface_value(const std::vector<scalar>& fraction, const std::vector<scalar>& values, scalar weight_inside,
+                       const BlockGrid::Index& cell, scalar& value, vector& gradient) const;
+
+    const BlockGrid& grid() const { return grid_; }
+    bool is_periodic(int axis) const { return periodic_[axis]; }
+
 private:
     typedef BlockGrid::Index Index;
 
     /// Position of the interface in the column along `axis` through `start`, toward `outward` (±1); false if it has
     /// none in reach.
     bool height(const std::vector<scalar>& fraction, Index start, int axis, int outward, scalar& position) const;
-    /// κ at a cell from heights along `axis`; false if there is none.
-    bool curvature_along(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
+    /// The heights along `axis` around a cell, those behind sides continued; false if a column has none.
+    bool stencil(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
+                 scalar (&heights)[3][3]) const;
+    struct Stencil
+    {
+        int axis = 0, outward = 1;
+        scalar heights[3][3] = {}, slope_x = 0, slope_y = 0;
+    };
+    /// ∇α times 16 over 3 × 3 × 3 cells (Youngs 1982), those behind a side mirrored.
+    vector slope_of_share(const std::vector<scalar>& fraction, const Index& cell) const;
+    /// The stencil along the axis nearest to `slope`, or else along the second nearest; false if there is none.
+    bool best_stencil(const std::vector<scalar>& fraction, const Index& cell, const vector& slope, Stencil& best) const;
+    /// κ at a cell from heights along `axis`, by five columns each way (by_edges) or three; false if there is none.
+    bool curvature_along(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward, bool by_edges,
                          scalar& curvature) const;
+
+    /// Height two columns away from `column` along `along`, behind sides without contact angle the mirror image's;
+    /// false if there is none, or that column has another width.
+    bool height_farther(const std::vector<scalar>& fraction, Index column, int along, int way, int axis, int outward,
+                        scalar& position) const;
+    /// Mean κ over the footprint of the middle column as the divergence of the tangent on its edges, whose slopes are
+    /// of fourth order over five columns; false where a surface is too steep for that, or columns are missing.
+    bool curvature_of_edges(const std::vector<scalar>& fraction, const Index& cell, int axis, int outward,
+                            const scalar (&heights)[3][3], scalar& curvature) const;
 
     /// κ at a cell from a paraboloid fitted to the heights along all axes around it; false if they are too few.
     bool curvature_of_fit(const std::vector<scalar>& fraction, const Index& cell, const vector& outward,
                           scalar& curvature) const;
+
+    /// α of the cell that lies `ahead` along `axis`, i and j along the other two; behind a side, of the one before it.
+    scalar share_near(const std::vector<scalar>& fraction, Index cell, int axis, int ahead, int i, int j) const;
 
     /// `index` along `axis`, brought back into the mesh by whole periods where the axis is periodic.
     int inside_period(int axis, int index) const;
@@ -56,7 +96,7 @@ private:
     /// One end of an axis: whether heights can be continued behind it, and with which slope.
     struct Side
     {
-        bool continues = false;
+        bool continues = false, wets = false;
         scalar cotangent = 0;
     };
 

@@ -25,11 +25,10 @@ public:
     void update();
 
     const volVectorField& gradient() const { return *gradient_; } ///< ∇α [1/m]
-    /// n̂·S on faces [m²], for the compression of α; written with the fields, because the next step starts from it.
-    const surfaceScalarField& normal_flux() const { return normal_flux_; }
+    const HeightFunction& heights() const { return heights_; }
     const surfaceScalarField& curvature() const { return *curvature_; } ///< κ on faces [1/m]; only with surface_tension
-    /// Unit normal in cells, 0 away from the interface.
-    tmp<volVectorField> unit_normal() const;
+    /// Values on faces of what cells at the interface have: means weighted with α(1 − α); only with surface_tension.
+    tmp<surfaceScalarField> at_faces(const volScalarField& values) const;
 
 private:
     /// n̂ on faces from the gradient of `smooth`, with the contact angle at walls if the scene has wetting.
@@ -40,9 +39,9 @@ private:
     const label smoothing_passes_, averaging_passes_;
     const bool use_heights_;
     const dimensionedScalar tiny_gradient_;
-    autoPtr<HeightFunction> heights_;
+    const HeightFunction heights_;
     autoPtr<volVectorField> gradient_;
-    surfaceScalarField normal_flux_;
+    autoPtr<volScalarField> weight_;
     autoPtr<surfaceScalarField> curvature_;
 };
 } // namespace cupel

@@ -45,7 +45,11 @@ int run_scene(Time& clock, const fvMesh& mesh)
     const MeshWindow window(scene, properties);
     Fields fields(mesh, scene);
     autoPtr<InterfaceGeometry> geometry;
-    if (scene.physics.flow) geometry.reset(new InterfaceGeometry(scene, fields));
+    autoPtr<InterfaceTransport> transport;
+    if (scene.physics.flow) {
+        geometry.reset(new InterfaceGeometry(scene, fields));
+        transport.reset(new InterfaceTransport(fields, geometry->heights()));
+    }
     autoPtr<volVectorField> still_gradient; // without flow the interface stays: ∇α once
     if (!scene.physics.flow)
         still_gradient.reset(new volVectorField("gradient_of_fraction", fvc::grad(fields.fraction)));
@@ -80,7 +84,7 @@ int run_scene(Time& clock, const fvMesh& mesh)
         ++clock;
         ++state.steps;
         try {
-            if (scene.physics.flow) advance_volume_fraction(scene, fields, geometry());
+            if (scene.physics.flow) advance_volume_fraction(scene, fields, transport(), geometry(), state.steps);
             if (scene.physics.heat) {
                 rates = energy->advance(scene.physics.flow ? geometry->gradient() : still_gradient());
                 fields.update_peak();

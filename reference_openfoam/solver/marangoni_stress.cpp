@@ -39,18 +39,16 @@ tmp<volVectorField> heavy_side_gradient(const Fields& fields)
 }
 } // namespace
 
-tmp<volVectorField> marangoni_force(const Scene& scene, const Fields& fields, const InterfaceGeometry& geometry)
+tmp<volVectorField> marangoni_force(const Scene& scene, const Fields& fields, const SurfaceTemperature& surface)
 {
     const PrimaryMaterial& primary = scene.primary;
-    const volScalarField& temperature = fields.heat->temperature;
-    const volVectorField temperature_gradient(fvc::grad(temperature));
-    const volVectorField normal(geometry.unit_normal());
     const volScalarField slope("surface_tension_derivative",
-                               map_field(temperature, "surface_tension_derivative",
+                               map_field(surface.value, "surface_tension_derivative",
                                          dimForce / dimLength / dimTemperature, [&primary](scalar value) {
                                              return primary.surface_tension_derivative(value) *
                                                     primary.liquid_fraction(value);
                                          }));
-    return slope * mag(heavy_side_gradient(fields)) * (temperature_gradient - normal * (normal & temperature_gradient));
+    const dimensionedScalar none(dimless / dimLength, Zero);
+    return slope * max(-(surface.outward & heavy_side_gradient(fields)), none) * surface.gradient;
 }
 } // namespace cupel

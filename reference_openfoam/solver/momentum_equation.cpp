@@ -11,7 +11,8 @@ namespace cupel
 namespace
 {
 /// Capillary force, recoil and gravity's density jump on faces [N/m³].
-tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, const InterfaceGeometry& geometry)
+tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, const InterfaceGeometry& geometry,
+                                    const SurfaceTemperature* surface)
 {
     const fvMesh& mesh = fields.mesh;
     tmp<surfaceScalarField> force(new surfaceScalarField(
@@ -21,7 +22,7 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
     if (scene.physics.surface_tension || scene.physics.recoil) {
         const surfaceScalarField interface_gradient(interface_step_gradient(fields));
         if (scene.physics.surface_tension)
-            add_capillary_force(force.ref(), interface_gradient, scene, fields, geometry);
+            add_capillary_force(force.ref(), interface_gradient, scene, geometry, surface);
         if (scene.physics.recoil) add_recoil_pressure(force.ref(), interface_gradient, scene, fields);
     }
     if (scene.physics.gravity) force.ref() -= fields.flow->gravity_potential_faces * fvc::snGrad(fields.flow->density);
@@ -59,15 +60,20 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
                                        return bounded * primary + (1 - bounded) * surrounding;
                                    }));
 
+    autoPtr<SurfaceTemperature> surface;
+    if (scene.physics.has_temperature() && (scene.physics.marangoni || scene.physics.surface_tension))
+        surface.reset(new SurfaceTemperature(scene, fields, geometry));
+
     fvVectorMatrix momentum(fvm::ddt(flow.density, U) + fvm::div(flow.mass_flux, U) -
                             fvm::laplacian(fvc::interpolate(viscosity), U) -
                             fvc::div(viscosity * dev2(Foam::T(fvc::grad(U)))));
     if (scene.physics.melting) momentum += fvm::Sp(mushy_drag(scene, fields), U);
     if (mag(flow.periodic_gravity) > 0)
         momentum -= flow.density * dimensionedVector("periodic_gravity", dimAcceleration, flow.periodic_gravity);
-    if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, geometry);
+    if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, surface());
 
-    const surfaceScalarField forces(face_forces(scene, fields, geometry));
+    const surfaceScalarField forces(
+        face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr));
     const volScalarField A("A", momentum.A());
     const surfaceScalarField rAUf("rAUf", 1 / fvc::interpolate(A));
     const surfaceScalarField inertia(own_history(flow, A));
@@ -93,5 +99,7 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         U.correctBoundaryConditions();
         if (!std::isfinite(residual)) break; // the guards say where
     }
+    U += fvc::reconstruct(phi - fvc::flux(flow.density * U) / fvc::interpolate(flow.density));
+    U.correctBoundaryConditions();
 }
 } // namespace cupel

@@ -12,10 +12,11 @@
 /// mean of 1/ρ would have the surface's pressure act at the centre of that cell, half a cell too deep (Popinet 2009 has
 /// densities on faces so). Cells are accelerated by the mean of their faces' accelerations, not of their forces: the
 /// force on a face beside the liquid, shared out to the gas, would throw the gas about by the ratio of the densities.
-/// Fluxes keep their own inertia from step to step, as on a staggered mesh.
+/// Fluxes keep their own inertia from step to step, as on a staggered mesh, and cells take on what their faces have
+/// beyond them: viscosity, which acts between cells, would wear it away within Δ²/4ν, and waves would be too slow.
 #pragma once
 
-#include "interface_geometry.hpp"
+#include "surface_temperature.hpp"
 
 namespace cupel
 {
