@@ -41,7 +41,8 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     const bool loads = with_tension_ || with_recoil_;
-    // Melt among its own solid is films and necks of a few particles: too little for a field to be carried in.
+    // Thin edges at walls and films of melt among its solid are a few particles: too little for a field to be carried
+    // in.
     band_bears_load_ = loads && !scene.two_phase && scene.definition.requires_physics("wetting");
     if (loads || with_marangoni_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,

@@ -8,8 +8,9 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-/// Two liquids that fill the domain (Hu & Adams 2006, Adami, Hu, Adams 2010 and 2013): volume by summation, pressure
-/// weighted with the neighbour's density, positions moved by a transport velocity.
+/// Two liquids that fill the domain (Hu & Adams 2006, Adami, Hu, Adams 2010 and 2013): volume by summation, pressure as
+/// the derivative of an elastic energy, the load of the interface as a pressure that jumps there, positions moved by a
+/// transport velocity.
 class TwoPhaseFlow : public Flow
 {
 public:

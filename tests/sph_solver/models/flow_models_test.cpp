@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "block_of_liquid.hpp"
 #include "models/colour_profile.hpp"
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
@@ -12,40 +13,11 @@
 #include "models/surface_load.hpp"
 #include "models/surface_pressure.hpp"
 #include "models/viscous_traction.hpp"
-#include "small_scenes.hpp"
 
 namespace cupel
 {
 namespace
 {
-
-using small_scenes::jittered_lattice;
-
-/// A jittered block of liquid with its list, for one term at a time.
-struct Block
-{
-    explicit Block(int dimensions_, int n = 12, double jitter = 0.25)
-        : dimensions(dimensions_), particles(jittered_lattice(n, dimensions_, jitter)),
-          mobility(particles.add_scalar({"mobility", "1"}, 1.0)), neighbourhood(3.0, 0.3, 1.0, dimensions_),
-          kernel(1.0, dimensions_), correction(CorrectionMatrix::register_in(particles))
-    {
-        for (Index i = 0; i < particles.count(); ++i)
-            mobility[i] = 1.0;
-        neighbourhood.rebuild(particles, mobility);
-        run(GradientCorrection{{mobility}, dimensions, correction});
-    }
-    template <class Term> void run(const Term& term)
-    {
-        for_each_pair(neighbourhood.list(), particles, kernel, neighbourhood.moving(), term);
-    }
-
-    int dimensions;
-    Particles particles;
-    ScalarField& mobility;
-    Neighbourhood neighbourhood;
-    QuinticSpline kernel;
-    CorrectionMatrix correction;
-};
 
 class FlowModels : public testing::TestWithParam<int>
 {};
