@@ -69,6 +69,8 @@ void SurfaceTracker::find_band(const Neighbourhood& neighbourhood)
 /// surface anew.
 void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
 {
+    // What has left the walls is pulled no longer.
+    if (contact_pull_) neighbourhood.for_each_moving([&](Index i) { contact_pull_->set(i, {}); });
     const NeighbourList& list = neighbourhood.list();
     std::vector<Index> walls;
     for (const Index c : neighbourhood.standing())
@@ -86,11 +88,10 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
             if (mobility_.weight[i] != 0.0) finish_gradient(i);
     }
     find_band(neighbourhood);
-    if (!contact_pull_) return;
-    neighbourhood.for_each_moving([&](Index i) { contact_pull_->set(i, {}); });
-    for_each_pair(list, particles_, kernel_, wetting,
-                  ContactPull{mobility_, spacing_, wall_interface_->wall_normal, wall_interface_->wall_depth,
-                              wall_interface_->weight_sum, *wall_pull_, *contact_pull_});
+    if (contact_pull_)
+        for_each_pair(list, particles_, kernel_, wetting,
+                      ContactPull{mobility_, spacing_, wall_interface_->wall_normal, wall_interface_->wall_depth,
+                                  wall_interface_->weight_sum, *wall_pull_, *contact_pull_});
 }
 
 void SurfaceTracker::finish_gradient(Index i)
@@ -143,7 +144,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                 const Vector normal = normal_of(young);
                 const Vector chord = normal + normal_of(seen);
                 const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
-                const double depth = dot(foot, (1.0 / norm(chord)) * chord);
+                const double depth = dot(foot, chord) / std::max(norm(chord), 1e-9);
                 if (wall_pull_ && i == top)
                     wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);
                 const double colour = std::clamp(0.5 + depth / spacing_, 0.0, 1.0);
