@@ -71,9 +71,9 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (with_marangoni_) temperature_gradient_ = &particles_.add_vector({"temperature_gradient", "K/m"});
 }
 
-WallPressure Flow::wall_pressure(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load)
+WallPressure Flow::wall_pressure(ScalarField& pressure, ScalarField* carried_load)
 {
-    return {mobility_, particles_.density, gravity_, walls_may_pull, particles_.kind, carried_load, pressure};
+    return {mobility_, particles_.density, gravity_, particles_.kind, carried_load, pressure};
 }
 
 WallVelocity Flow::wall_velocity()
@@ -171,15 +171,6 @@ double Flow::mechanical_energy(const Neighbourhood& neighbourhood) const
         const Vector v = particles_.velocity[i];
         return particles_.mass[i] * (0.5 * dot(v, v) + elastic_energy(i));
     });
-}
-
-void Flow::find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
-{
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  GradientCorrection{mobility_, scene_.dimensions, correction},
-                  ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
-    for (const Index i : neighbourhood.moving_particles())
-        temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
 }
 
 void Flow::add_cohesion(const Neighbourhood& neighbourhood)

@@ -89,8 +89,8 @@ public:
 protected:
     Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility);
 
-    /// Pressure and velocity of walls and solids from the liquid before them; two phases fill space, so walls may pull.
-    WallPressure wall_pressure(bool walls_may_pull, ScalarField& pressure, ScalarField* carried_load = nullptr);
+    /// Pressure and velocity of walls and solids from the liquid before them.
+    WallPressure wall_pressure(ScalarField& pressure, ScalarField* carried_load);
     WallVelocity wall_velocity();
     /// The artificial pair forces of a case that switches one on, as terms that add to artificial_force_.
     void start_artificial_force(const Neighbourhood& neighbourhood);
@@ -109,8 +109,6 @@ protected:
     Vector sum_of_pair_forces(Index i) const;
     /// force_ ← that.
     void add_up_forces(const Neighbourhood& neighbourhood);
-    /// The corrected gradient of temperature, where surface tension varies with it.
-    void find_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Adds to force_ what holds liquid together that is too thin to have a surface of its own.
     void add_cohesion(const Neighbourhood& neighbourhood);
     /// What presses on the surface.

@@ -262,7 +262,7 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
 void FreeSurfaceFlow::extrapolate_pressure(const Neighbourhood& neighbourhood)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
-                  wall_pressure(false, *excess_pressure_, carried_load_));
+                  wall_pressure(*excess_pressure_, carried_load_));
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = neighbourhood.list().cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)

@@ -53,7 +53,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     if (scene.definition.numerics.shifting > 0.0) transport_speed_ = &particles_.add_scalar({"transport_speed", "m/s"});
     if (viscosities_differ_ || transport_speed_)
         velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
-    if (load_ && !band_bears_load_) {
+    if (load_) {
         excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
         carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
         carried_load_of_other_ = &particles_.add_scalar({"carried_load_of_other", "Pa"});

@@ -21,8 +21,7 @@ struct WallPressure
 {
     Mobility mobility;
     const ScalarField& density;
-    Vector gravity;      ///< m/s²
-    bool walls_may_pull; ///< two phases fill the space: a wall may take negative pressure
+    Vector gravity; ///< m/s²
     const std::vector<Kind>& kind;
     ScalarField* carried_load; ///< λ, Pa; null where none is carried
     ScalarField& pressure;
@@ -64,7 +63,7 @@ struct WallPressure
             const double weight = sum.weight[lane];
             const Vector head{sum.head.x[lane], sum.head.y[lane], sum.head.z[lane]};
             const double extrapolated = weight > 0.0 ? (1.0 / weight) * (sum.pressure[lane] + dot(gravity, head)) : 0.0;
-            const bool may_pull = walls_may_pull || kind[static_cast<std::size_t>(i)] == Kind::solid;
+            const bool may_pull = kind[static_cast<std::size_t>(i)] == Kind::solid;
             const double load = weight > 0.0 ? sum.load[lane] / weight : 0.0;
             if (carried_load) (*carried_load)[i] = load;
             pressure[i] = may_pull ? extrapolated : std::max(-load, extrapolated);
