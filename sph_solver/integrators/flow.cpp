@@ -233,10 +233,11 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
                 force_density +=
                     surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
             if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
-            by_surface += (1.0 / particles_.density[i]) * force_density;
+            const double lightness = 1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i]);
+            by_surface += lightness * force_density;
             if (with_marangoni_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
-            acceleration += (1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i])) * force_density;
+            acceleration += lightness * force_density;
         }
         acceleration_.set(i, acceleration);
         if (!by_surface_) return;

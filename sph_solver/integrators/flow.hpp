@@ -66,6 +66,13 @@ public:
     const VectorField& acceleration() const { return acceleration_; }
     /// Of it, what sound is made of: pressure, and gravity, which pressure bears.
     Vector acceleration_by_sound(Index i) const { return (1.0 / particles_.mass[i]) * pressure_force_[i] + gravity_; }
+    /// Of it, what acts as an impulse at the ends of a step within which sound is followed: viscosity, Marangoni
+    /// stress, what is artificial. The surface's load is held.
+    Vector impulsive_acceleration(Index i) const
+    {
+        const Vector impulsive = acceleration_[i] - acceleration_by_sound(i);
+        return by_surface_ ? impulsive - (*by_surface_)[i] : impulsive;
+    }
     /// What a kick adds to the velocity of particle i, m/s.
     Vector kick(Index i, const KickTimes& times) const
     {

@@ -192,8 +192,8 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
                                        viscous_force_,
                                        wall_power_};
     // What follows momentum adds to what it has just stored for the same cluster.
-    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity,
-                                   viscous_force_};
+    const ViscousTraction traction{mobility_,          particles_.volume, velocity_gradient_,
+                                   momentum.viscosity, nullptr,           viscous_force_};
     start_artificial_force(neighbourhood);
     const auto sum = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);

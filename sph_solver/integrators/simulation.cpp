@@ -125,8 +125,9 @@ void Simulation::set_frozen_temperature()
     }
 }
 
-/// The least of all limits. Those of the flow hold while anything moves; the force criterion √(h/|a|) (Monaghan 1992)
-/// is the only one that changes with it. While nothing moves, heat sets the pace.
+/// The least of all limits. Those of the flow hold while anything moves; the force criterion ¼ √(h/|a|) (Monaghan 1992)
+/// is the only one that changes with it: all of a particle's acceleration has to keep to it in a step of sound, and in
+/// a whole step what acts as an impulse at its ends. While nothing moves, heat sets the pace.
 double Simulation::choose_time_step(double longest)
 {
     double time_step = longest;
@@ -141,21 +142,31 @@ double Simulation::choose_time_step(double longest)
         if (heat_) consider("thermal", heat_->stable_time_step());
     }
     else {
-        double greatest = 0.0;
-        const VectorField& acceleration = flow_->acceleration();
-        for (const Index i : neighbourhood_.moving_particles())
-            greatest = std::max(greatest, dot(acceleration[i], acceleration[i]));
-        limits_["force"] = greatest > 0.0 ? 0.25 * scene_.definition.numerics.time_step_factor *
-                                                std::sqrt(parameters_.smoothing_length / std::sqrt(greatest))
-                                          : no_limit;
         for (const auto& [name, limit] : limits_)
-            if (name != "acoustic") consider(name, limit);
+            if (name != "acoustic" && name != "force") consider(name, limit);
         if (heat_) consider("thermal", heat_->stable_time_step());
-        substeps_ = steps_of_sound(time_step);
+        if (most_steps_of_sound() > 1)
+            consider("force", force_limit([&](Index i) { return flow_->impulsive_acceleration(i); }));
+        limits_["force"] = force_limit([&](Index i) { return flow_->acceleration()[i]; });
+        const double sound = std::min(limits_.at("acoustic"), limits_.at("force"));
+        substeps_ = steps_of_sound(time_step / sound);
         consider("acoustic", substeps_ * limits_.at("acoustic"));
+        consider("force", substeps_ * limits_.at("force"));
     }
     ++binding_[last_binding_];
     return time_step;
+}
+
+template <class Acceleration> double Simulation::force_limit(const Acceleration& acceleration_of) const
+{
+    double greatest = 0.0;
+    for (const Index i : neighbourhood_.moving_particles()) {
+        const Vector acceleration = acceleration_of(i);
+        greatest = std::max(greatest, dot(acceleration, acceleration));
+    }
+    if (!(greatest > 0.0)) return no_limit;
+    return 0.25 * scene_.definition.numerics.time_step_factor *
+           std::sqrt(parameters_.smoothing_length / std::sqrt(greatest));
 }
 
 int Simulation::most_steps_of_sound() const
@@ -163,12 +174,11 @@ int Simulation::most_steps_of_sound() const
     return flow_->follows_sound() ? scene_.definition.numerics.acoustic_substeps : 1;
 }
 
-/// How many steps of sound make one of all else, `longest` being what all else allows: the nearest whole number. One
-/// more for a small rest would cost what it gains.
-int Simulation::steps_of_sound(double longest) const
+/// How many steps of sound make one of all else, `fitting` of which would just fit: the nearest whole number. One more
+/// for a small rest would cost what it gains.
+int Simulation::steps_of_sound(double fitting) const
 {
-    const double fitting = std::round(longest / limits_.at("acoustic"));
-    return static_cast<int>(std::clamp(fitting, 1.0, static_cast<double>(most_steps_of_sound())));
+    return static_cast<int>(std::clamp(std::round(fitting), 1.0, static_cast<double>(most_steps_of_sound())));
 }
 
 void Simulation::kick(const KickTimes& times)

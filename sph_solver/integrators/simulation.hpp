@@ -69,7 +69,9 @@ private:
     void set_frozen_temperature();
     double choose_time_step(double longest);
     int most_steps_of_sound() const;
-    int steps_of_sound(double longest) const;
+    int steps_of_sound(double fitting) const;
+    /// Longest step that the accelerations of what moves allow, s.
+    template <class Acceleration> double force_limit(const Acceleration& acceleration_of) const;
     void advance_flow(double time_step);
     void move(double time_step);
     void mark_what_moved();

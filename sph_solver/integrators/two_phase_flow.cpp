@@ -6,7 +6,8 @@
 #include "models/density_summation.hpp"
 #include "models/interface_pressure.hpp"
 #include "models/momentum.hpp"
-#include "models/shifting.hpp"
+#include "models/sound.hpp"
+#include "models/transport_velocity.hpp"
 #include "models/viscous_traction.hpp"
 #include "models/wall_compression.hpp"
 
@@ -43,16 +44,14 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     double heaviest = 0.0;
     for (const Material& material : scene.materials)
         heaviest = std::max(heaviest, material.density);
-    double most_viscous = 0.0;
-    least_viscosity_ = scene.materials.front().viscosity.value();
+    double most_viscous = 0.0, least_viscous = scene.materials.front().viscosity.value();
     for (const Material& material : scene.materials) {
-        least_viscosity_ = std::min(least_viscosity_, material.viscosity.value());
+        least_viscous = std::min(least_viscous, material.viscosity.value());
         most_viscous = std::max(most_viscous, material.viscosity.value());
     }
-    viscosities_differ_ = most_viscous > least_viscosity_;
-    if (scene.definition.numerics.shifting > 0.0) transport_speed_ = &particles_.add_scalar({"transport_speed", "m/s"});
-    if (viscosities_differ_ || transport_speed_)
-        velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
+    if (most_viscous > least_viscous) excess_viscosity_ = &particles_.add_scalar({"excess_viscosity", "Pa s"});
+    transports_ = scene.definition.numerics.shifting > 0.0;
+    if (excess_viscosity_ || transports_) velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
     if (load_) {
         excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
         carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
@@ -60,13 +59,16 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
         carried_mean_ = &particles_.add_scalar({"carried_load_mean", "Pa"});
         carried_acceleration_ = &particles_.add_vector({"carried_load_acceleration", "m/s2"});
     }
+    if (load_ && scene.definition.numerics.acoustic_substeps > 1) hold_surface_forces();
     if (temperature_gradient_ || velocity_gradient_ || carried_load_)
         correction_.emplace(CorrectionMatrix::register_in(particles_));
     lattice_number_ = lattice_number(kernel_, scene.spacing, scene.dimensions);
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
-    for (Index i = 0; i < particles_.count(); ++i)
+    for (Index i = 0; i < particles_.count(); ++i) {
         viscosity_[i] = scene.materials[particles_.material[static_cast<std::size_t>(i)]].viscosity.value();
+        if (excess_viscosity_) (*excess_viscosity_)[i] = viscosity_[i] - least_viscous;
+    }
 }
 
 void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
@@ -86,7 +88,35 @@ double TwoPhaseFlow::elastic_energy(Index i) const
 
 void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step)
 {
-    const auto& list = neighbourhood.list();
+    const double sound = time_step - sound_ahead_;
+    sound_ahead_ = 0.0;
+    compress(neighbourhood, sound);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_velocity(),
+                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
+    compress_walls(neighbourhood, time_step == 0.0, sound);
+    find_gradients(neighbourhood);
+    if (surface_) surface_->find(neighbourhood);
+    find_forces(neighbourhood);
+    add_up_forces(neighbourhood);
+    find_load(neighbourhood, temperature_gradient_ != nullptr);
+    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
+    accelerate(neighbourhood);
+}
+
+void TwoPhaseFlow::evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step)
+{
+    compress(neighbourhood, step.time_step);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
+                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
+    compress_walls(neighbourhood, false, step.time_step);
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  TwoPhasePressureForce{mobility_, particles_.volume, *excess_pressure_, pressure_force_});
+    sound_ahead_ += step.time_step;
+}
+
+/// Densities and pressures at the new places, to which the last time_step has led.
+void TwoPhaseFlow::compress(const Neighbourhood& neighbourhood, double time_step)
+{
     const auto& moving = neighbourhood.moving_particles();
     const auto elastic = [&] {
         return ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
@@ -95,7 +125,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
         });
     };
     const double before = elastic();
-    for_each_pair(list, particles_, kernel_, neighbourhood.moving(),
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   DensitySummation{mobility_, particles_.mass, transport_velocity_, particles_.volume,
                                    particles_.density, transport_rate_});
     MechanicalWork work;
@@ -109,31 +139,19 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
     });
     work.compression = time_step > 0.0 ? elastic() - before - work.density_diffusion : 0.0;
     books_ += work;
-    compress_walls(neighbourhood, time_step);
-    if (surface_) {
-        for_each_pair(list, particles_, kernel_, neighbourhood.moving(), surface_->colour_gradient());
-        surface_->find(neighbourhood);
-    }
-    find_forces(neighbourhood);
-    add_up_forces(neighbourhood);
-    find_load(neighbourhood);
-    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
-    accelerate(neighbourhood);
 }
 
-/// Walls feel the liquid before them as liquid would; they have its extrapolated velocity, for viscosity.
-void TwoPhaseFlow::compress_walls(const Neighbourhood& neighbourhood, double time_step)
+/// Walls feel the liquid before them as liquid would, by the number of it that has just been summed.
+void TwoPhaseFlow::compress_walls(const Neighbourhood& neighbourhood, bool at_start, double time_step)
 {
     const NeighbourList& list = neighbourhood.list();
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), wall_velocity(),
-                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
     const double lattice_volume = scene_.particle_volume();
     double change = 0.0, transported = 0.0;
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
             if (mobility_.weight[i] != 0.0) continue;
-            if (time_step == 0.0) liquid_number_at_start_[i] = liquid_number_[i];
+            if (at_start) liquid_number_at_start_[i] = liquid_number_[i];
             const double crowding = lattice_volume * (lattice_number_ + liquid_number_[i] - liquid_number_at_start_[i]);
             const double pressure = stiffness_ * (crowding - 1.0), volume = lattice_volume / crowding;
             transported +=
@@ -149,52 +167,67 @@ void TwoPhaseFlow::compress_walls(const Neighbourhood& neighbourhood, double tim
     books_.imbalance -= change - transported;
 }
 
+/// Everything that needs nothing but places and volumes: the matrices that correct gradients, the gradients of velocity
+/// and temperature, and that of colour.
+void TwoPhaseFlow::find_gradients(const Neighbourhood& neighbourhood)
+{
+    const auto sum = [&](const auto&... terms) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
+    };
+    const auto sum_with_colour = [&](const auto&... others) {
+        surface_ ? sum(others..., surface_->colour_gradient()) : sum(others...);
+    };
+    const auto sum_with_velocity = [&](const auto&... others) {
+        // The gradient reads the matrix that has just been stored for the same cluster.
+        if (!velocity_gradient_) return sum_with_colour(others...);
+        sum_with_colour(others..., VelocityGradient{mobility_, particles_.velocity, *correction_, *velocity_gradient_});
+    };
+    if (!correction_) {
+        if (surface_) sum(surface_->colour_gradient());
+        return;
+    }
+    sum_with_velocity(GradientCorrection{mobility_, scene_.dimensions, *correction_});
+}
+
+/// Forces between particles, and in the same pass the transport velocity of the next drift and what Marangoni flow
+/// needs of temperature.
 void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
 {
     const auto sum = [&](const auto&... terms) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), terms...);
     };
-    if (velocity_gradient_) {
-        // The gradient reads the matrix that has just been stored for the same cluster.
-        sum(GradientCorrection{mobility_, scene_.dimensions, *correction_},
-            VelocityGradient{mobility_, particles_.velocity, *correction_, *velocity_gradient_});
-        if (transport_speed_) {
-            // Fitted on a drop that Marangoni stress drives (thermocapillary_drop, greatest error at coarse): 4 times
-            // the strength of a free surface's shifting, since momentum does not follow (1: 35 %, 2: 14 %, 5: 7.7 %,
-            // 15: 8.8 %, and with 5 a drop at rest is stirred by 1.0e-4 instead of 0.9e-4), and never faster than
-            // c₀/100.
-            const double strength = 4.0 * scene_.definition.numerics.shifting;
-            const double greatest = 0.02 * parameters_.equation_of_state.sound_speed;
-            neighbourhood.for_each_moving([&](Index i) {
-                (*transport_speed_)[i] = shifting_speed(strength, parameters_.smoothing_length,
-                                                        velocity_gradient_->strain_rate(i), greatest);
-            });
-        }
-    }
-    else if (correction_)
-        sum(GradientCorrection{mobility_, scene_.dimensions, *correction_});
-    if (temperature_gradient_) {
-        sum(ScalarGradient{mobility_, *temperature_, *temperature_gradient_});
-        neighbourhood.for_each_moving(
-            [&](Index i) { temperature_gradient_->set(i, (*correction_)[i] * (*temperature_gradient_)[i]); });
-    }
-    const TwoPhaseMomentum momentum{mobility_,          particles_.volume,   *excess_pressure_,
-                                    viscosity_,         particles_.velocity, parameters_.smoothing_length,
-                                    transport_speed_,   pressure_force_,     viscous_force_,
-                                    transport_velocity_};
+    const TwoPhaseMomentum momentum{mobility_,           particles_.volume, *excess_pressure_, viscosity_,
+                                    particles_.velocity, pressure_force_,   viscous_force_};
     start_artificial_force(neighbourhood);
     // What follows momentum adds to what it has just stored for the same cluster.
-    const auto sum_forces = [&](const auto&... others) {
+    const auto sum_with_remedies = [&](const auto&... others) {
         artificial_force_ ? sum(momentum, others..., artificial_viscosity(), artificial_stress())
                           : sum(momentum, others...);
     };
+    const auto sum_with_transport = [&](const auto&... others) {
+        if (!transports_) return sum_with_remedies(others...);
+        // Chosen on a drop at rest and one that Marangoni stress drives (static_drop, thermocapillary_drop, both
+        // judged): 10 times the strength of a free surface's shifting, since momentum does not follow, and never
+        // faster than c₀/100.
+        sum_with_remedies(others..., TransportVelocity{mobility_, 10.0 * scene_.definition.numerics.shifting,
+                                                       parameters_.smoothing_length,
+                                                       0.02 * parameters_.equation_of_state.sound_speed,
+                                                       particles_.volume, *velocity_gradient_, transport_velocity_});
+    };
+    const auto sum_with_temperature = [&](const auto&... others) {
+        if (!temperature_gradient_) return sum_with_transport(others...);
+        sum_with_transport(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_},
+                           surface_temperature());
+    };
     // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
-    if (!viscosities_differ_) return sum_forces();
-    neighbourhood.for_each_moving([&](Index i) {
-        for (VectorField* row : {&velocity_gradient_->x, &velocity_gradient_->y, &velocity_gradient_->z})
-            row->set(i, (viscosity_[i] - least_viscosity_) * (*row)[i]);
-    });
-    sum_forces(ViscousTraction{mobility_, particles_.volume, *velocity_gradient_, 1.0, viscous_force_});
+    if (excess_viscosity_)
+        sum_with_temperature(
+            ViscousTraction{mobility_, particles_.volume, *velocity_gradient_, 1.0, excess_viscosity_, viscous_force_});
+    else
+        sum_with_temperature();
+    if (!temperature_gradient_) return;
+    neighbourhood.for_each_moving(
+        [&](Index i) { temperature_gradient_->set(i, (*correction_)[i] * (*temperature_gradient_)[i]); });
 }
 
 /// The load on the interface as a pressure in both phases, one sweep further than the last, and its force. A run starts

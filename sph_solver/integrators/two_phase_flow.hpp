@@ -18,10 +18,14 @@ public:
 
     void drift(const Neighbourhood& neighbourhood, double time_step) override;
     void evaluate(const Neighbourhood& neighbourhood, double time_step) override;
+    bool follows_sound() const override { return true; }
+    void evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step) override;
     double elastic_energy(Index i) const override;
 
 private:
-    void compress_walls(const Neighbourhood& neighbourhood, double time_step);
+    void compress(const Neighbourhood& neighbourhood, double time_step);
+    void compress_walls(const Neighbourhood& neighbourhood, bool at_start, double time_step);
+    void find_gradients(const Neighbourhood& neighbourhood);
     void find_forces(const Neighbourhood& neighbourhood);
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
 
@@ -33,19 +37,17 @@ private:
     ScalarField& transport_rate_;         ///< rate of a volume by the transport velocity, m³/s
     VectorField& transport_velocity_;
     std::optional<CorrectionMatrix> correction_; ///< for Marangoni flow, the traction and the carried load
-    std::optional<VelocityGradientFields>
-        velocity_gradient_;                  ///< 1/s; after use (μ − least μ) ∇v, Pa, where viscosities differ
-    ScalarField* transport_speed_ = nullptr; ///< only where the case shifts particles
-    bool viscosities_differ_ = false;
+    std::optional<VelocityGradientFields> velocity_gradient_;
+    ScalarField* excess_viscosity_ = nullptr; ///< over that of the other phase, only where they differ
+    bool transports_ = false;                 ///< whether the case shifts particles
     // Only where a load is carried (interface_pressure.hpp):
     ScalarField* carried_load_ = nullptr;
     ScalarField* carried_load_of_other_ = nullptr; ///< on walls
-    ScalarField* carried_jump_ = nullptr;          ///< near contact lines
     ScalarField* carried_mean_ = nullptr;
     VectorField* carried_acceleration_ = nullptr;
-    double lattice_number_;  ///< of particles in a volume, 1/m³
-    double least_viscosity_; ///< Pa·s
-    double stiffness_;       ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
+    double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
+    double lattice_number_;    ///< of particles in a volume, 1/m³
+    double stiffness_;         ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -65,16 +65,6 @@ struct FreeSurfaceMomentum
 /// (Hu & Adams 2007; Adami, Hu, Adams 2013), is no such derivative where densities differ: between air and water it
 /// gave to motion twice what surface tension did, without end. Walls: wall_compression.hpp. A wall has no viscosity of
 /// its own: it has that of the particle that meets it (Adami, Hu, Adams 2012).
-///
-/// And a transport velocity, which moves positions and not momentum, to where particles lie more evenly (Adami, Hu,
-/// Adams 2013), scaled by the local strain as shifting at a free surface is (shifting.hpp):
-///
-///   δu_i = −U_i h/V_i Σ_j (V_i² + V_j²) ∇W_ij,   |δu_i| ≤ ½ U_i      [m/s]
-///
-/// As published it comes from a background pressure of the size of ρ c₀², which moves what is at rest as well: the
-/// arrangement that has no unevenness is none of equal volumes, which the equation of state asks for, and at rest
-/// velocities v = −δu remain for ever (a static drop of La 120: spurious capillary number 4.8e-4, falling with that
-/// pressure).
 struct TwoPhaseMomentum
 {
     Mobility mobility;
@@ -82,11 +72,8 @@ struct TwoPhaseMomentum
     const ScalarField& pressure;
     const ScalarField& viscosity;
     const VectorField& velocity;
-    double smoothing_length;            ///< h, m
-    const ScalarField* transport_speed; ///< U, m/s; null where nothing is shifted
     VectorField& pressure_force;
     VectorField& viscous_force;
-    VectorField& transport_velocity;
 
     struct Near
     {
@@ -100,7 +87,7 @@ struct TwoPhaseMomentum
     };
     struct Sum
     {
-        VectorLanes pressure{}, viscous{}, unevenness{};
+        VectorLanes pressure{}, viscous{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -120,23 +107,12 @@ struct TwoPhaseMomentum
         const Lanes mean_viscosity = 2.0 * i.viscosity * viscosity_j / (i.viscosity + viscosity_j);
         sum.pressure -= ((square_i * i.pressure + square_j * j.pressure) * pair.gradient_over_r) * pair.offset;
         sum.viscous += (weight * mean_viscosity) * (i.velocity - broadcast(j.velocity));
-        sum.unevenness += weight * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
         store_if(pressure_force, cluster, sum.pressure, liquid);
         store_if(viscous_force, cluster, sum.viscous, liquid);
-        if (!transport_speed) return;
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index k = cluster.first + lane;
-            if (!liquid(k)) continue;
-            const double speed = (*transport_speed)[k], limit = 0.5 * speed;
-            Vector u = (-smoothing_length * speed / volume[k]) *
-                       Vector{sum.unevenness.x[lane], sum.unevenness.y[lane], sum.unevenness.z[lane]};
-            if (const double magnitude = norm(u); magnitude > limit) u = (limit / magnitude) * u;
-            transport_velocity.set(k, u);
-        }
     }
 };
 

@@ -122,4 +122,44 @@ template <bool with_walls> struct PressureForce
     }
 };
 
+/// The force of pressure between two phases, the same sum as in TwoPhaseMomentum:
+///
+///   m_i dv_i/dt = −Σ_j (V_i² p_i + V_j² p_j) ∇W_ij      [N]
+struct TwoPhasePressureForce
+{
+    Mobility mobility;
+    const ScalarField& volume;
+    const ScalarField& pressure;
+    VectorField& pressure_force;
+
+    struct Near
+    {
+        Lanes share; ///< V² p
+    };
+    struct Far
+    {
+        Real share;
+    };
+    struct Sum
+    {
+        VectorLanes push{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index first) const
+    {
+        const Lanes v = lanes(volume, first);
+        return {v * v * lanes(pressure, first)};
+    }
+    Far far(Index j) const { return {real(volume[j] * volume[j] * pressure[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        sum.push -= ((i.share + j.share) * pair.gradient_over_r) * pair.offset;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        store_if(pressure_force, cluster, sum.push, [&](Index i) { return mobility.weight[i] != 0.0; });
+    }
+};
+
 } // namespace cupel::inline CUPEL_ENGINE

@@ -19,14 +19,17 @@ namespace cupel::inline CUPEL_ENGINE
 ///
 /// Between two viscosities the same half is (∇v)ᵀ·∇μ, which Morris's sum lacks as well: with it left out a drop of half
 /// the viscosity that Marangoni stress drives moves with τa/(2 μ_o + 6 μ_i), not τa/(4 μ_o + 4 μ_i), a fifth too fast.
-/// There the fields hold (μ_i − least μ) ∇v_i and `viscosity` is one: a share that is the same everywhere adds nothing.
+/// There each side has its own μ, less the least of all: a share that is the same everywhere adds nothing.
 struct ViscousTraction
 {
     Mobility mobility;
     const ScalarField& volume;
     VelocityGradientFields gradient;
-    double viscosity;   ///< μ of the liquid, Pa·s; 1 where the fields hold stresses
-    VectorField& force; ///< added to
+    double viscosity;       ///< μ of the liquid, Pa·s; 1 between two
+    const ScalarField* own; ///< μ_i less the least of all, Pa·s; null where there is one
+    VectorField& force;     ///< added to
+
+    double share(Index i) const { return own ? (*own)[i] : 1.0; }
 
     struct Near
     {};
@@ -53,9 +56,9 @@ struct ViscousTraction
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        const double liquid = mobility.weight[j];
-        return {real(2.0 - liquid), real(liquid * gradient.x[j]), real(liquid * gradient.y[j]),
-                real(liquid * gradient.z[j])};
+        const double liquid = mobility.weight[j], weight = liquid * share(j);
+        return {real(2.0 - liquid), real(weight * gradient.x[j]), real(weight * gradient.y[j]),
+                real(weight * gradient.z[j])};
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
@@ -69,7 +72,8 @@ struct ViscousTraction
             if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0) {
                 const Vector n{sum.own.x[lane], sum.own.y[lane], sum.own.z[lane]};
                 const Vector others{sum.others.x[lane], sum.others.y[lane], sum.others.z[lane]};
-                const Vector traction = n.x * gradient.x[i] + n.y * gradient.y[i] + n.z * gradient.z[i] + others;
+                const Vector traction =
+                    share(i) * (n.x * gradient.x[i] + n.y * gradient.y[i] + n.z * gradient.z[i]) + others;
                 force.set(i, force[i] + viscosity * volume[i] * traction);
             }
     }

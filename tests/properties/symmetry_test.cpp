@@ -212,7 +212,8 @@ void expect_indifferent_to_motion(const Case& definition, double speed, int step
         particles.velocity.set(i, particles.velocity[i] + motion);
     advance(resting, steps);
     advance(moving, steps);
-    EXPECT_DOUBLE_EQ(resting.time(), moving.time());
+    // Accelerations, which may bound a step, are the same to round-off.
+    EXPECT_NEAR(resting.time(), moving.time(), 1e-13 * resting.time());
     EXPECT_GT(norm(motion) * resting.time(), definition.spacing);
     std::vector<Index> same(static_cast<std::size_t>(particles.count()));
     std::iota(same.begin(), same.end(), Index{0});

@@ -12,6 +12,7 @@
 #include "models/surface_geometry.hpp"
 #include "models/surface_load.hpp"
 #include "models/surface_pressure.hpp"
+#include "models/transport_velocity.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel
@@ -271,7 +272,7 @@ ViscousPower viscous_power(int dimensions, double jitter)
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_power});
     ViscousPower result{power(), 0.0, {}};
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, force});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, nullptr, force});
     result.whole = power();
     for (Index i = 0; i < particles.count(); ++i)
         result.total_force += force[i];
@@ -296,7 +297,8 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     Block block(GetParam(), 12, 0.0);
     Particles& particles = block.particles;
     VectorField& force = particles.add_vector({"force", "N"});
-    const VelocityGradientFields stress = VelocityGradientFields::register_in(particles);
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    ScalarField& viscosity = particles.add_scalar({"excess_viscosity", "Pa s"});
     Vector middle{};
     for (Index i = 0; i < particles.count(); ++i)
         middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
@@ -305,11 +307,10 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
         particles.velocity.set(i, {p.x + 2.0 * p.z, 0.0, -p.z});
         force.set(i, {});
     }
-    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, stress});
+    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     for (Index i = 0; i < particles.count(); ++i)
-        for (VectorField* row : {&stress.x, &stress.y, &stress.z})
-            row->set(i, (particles.position[i].x > middle.x ? 0.3 : 0.0) * (*row)[i]);
-    block.run(ViscousTraction{{block.mobility}, particles.volume, stress, 1.0, force});
+        viscosity[i] = particles.position[i].x > middle.x ? 0.3 : 0.0;
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, &viscosity, force});
     Vector traction{};
     double area = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
@@ -322,6 +323,43 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     }
     EXPECT_NEAR(traction.x / area, 0.3, 0.003);
     EXPECT_NEAR(traction.z / area, 0.6, 0.006);
+}
+
+TEST_P(FlowModels, TransportBetweenPhasesFollowsTheMeanStrain)
+{
+    Block block(GetParam(), 12, 0.2);
+    Particles& particles = block.particles;
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    VectorField& transport = particles.add_vector({"transport_velocity", "m/s"});
+    const double h = 1.0, strength = 0.05;
+    const auto mean_speed = [&](const auto& velocity_of) {
+        for (Index i = 0; i < particles.count(); ++i)
+            particles.velocity.set(i, velocity_of(i));
+        block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
+        block.run(TransportVelocity{{block.mobility}, strength, h, 1e9, particles.volume, gradient, transport});
+        double sum = 0.0;
+        for (Index i = 0; i < particles.count(); ++i)
+            sum += norm(transport[i]) / static_cast<double>(particles.count());
+        return sum;
+    };
+    EXPECT_EQ(mean_speed([](Index) { return Vector{3.0, 0.0, -2.0}; }), 0.0);
+    // Shear of the rate 0.4: nowhere more than ½ U, U = 20 s h γ̇.
+    const auto shear = [&](double rate) {
+        return mean_speed([&](Index i) { return Vector{rate * particles.position[i].z, 0.0, 0.0}; });
+    };
+    const double sheared = shear(0.4);
+    EXPECT_GT(sheared, 1e-3);
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_LE(norm(transport[i]), 0.5 * 20.0 * strength * h * 0.4 * (1.0 + 1e-6));
+    EXPECT_NEAR(shear(0.8), 2.0 * sheared, 1e-6 * sheared);
+    // Velocities that differ at random from one particle to the next have less of a mean strain than of a local one.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> noise(-0.5, 0.5);
+    double local = 0.0;
+    const double stirred = mean_speed([&](Index) { return Vector{noise(random), 0.0, noise(random)}; });
+    for (Index i = 0; i < particles.count(); ++i)
+        local += gradient.strain_rate(i) / static_cast<double>(particles.count());
+    EXPECT_LT(stirred / local, 0.75 * sheared / 0.4);
 }
 
 TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
