@@ -20,7 +20,8 @@ QUANTITY_NAMES = {
     "front_position": "Position of the front", "laplace_pressure": "Pressure inside less outside",
     "spurious_capillary_number": "Spurious capillary number", "oscillation_frequency": "Frequency", "oscillation_decay": "Decay rate",
     "oscillation_period": "Period", "wave_error": "Amplitude of the wave, RMS error", "drop_velocity": "Velocity of the drop",
-    "migration_error": "Velocity of the drop, greatest error", "recoil_balance_error": "Balance of recoil, error",
+    "migration_error": "Velocity of the drop, greatest error",
+    "migration_error_sharp_interface": "Velocity of the drop, to sharp interface", "recoil_balance_error": "Balance of recoil, error",
 }
 KIND_NAMES = {"exact": "exact", "tabulated": "tabulated", "solver": "other solver", "experiment": "experiment",
               "paper": "paper", "kept": "kept", None: ""}

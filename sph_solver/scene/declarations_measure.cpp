@@ -67,6 +67,8 @@ const std::vector<MeasureDeclaration>& measure_declarations()
         {"drop_velocity", "m/s", "velocity of a drop's centroid along the temperature gradient", computed},
         {"migration_error", "1", "greatest difference of a drop's velocity to the tabulated curve, over its plateau",
          zero},
+        {"migration_error_sharp_interface", "1",
+         "the same to the curve of a drop with a sharp interface, over its greatest value", zero},
         {"profile_error", "1", "L2 error of the velocity profile over the exact surface speed", zero},
         {"mean_profile_error", "1", "the same of the profile averaged over the snapshots", zero},
         {"surface_speed", "m/s", "speed along the liquid's surface at mid-length", computed},

@@ -227,3 +227,8 @@ def test_migration_error_is_the_greatest_distance_to_the_table_over_the_plateau(
                          "reference": {"kind": "tabulated", "value": None, "source": "Ma and Bothe 2011"}}]
     row, = measure(write_result(tmp_path, snapshots), case)
     assert row["value"] == pytest.approx(0.1, rel=1e-3) and row["pass"] is False and row["reference"] == 0.0
+    case["measures"][0]["name"] = "migration_error_sharp_interface"
+    row, = measure(write_result(tmp_path / "sharp", snapshots), case)
+    moments = np.linspace(0.15, 1.2, 22)
+    expected = np.abs(thermocapillary_drop.ma_bothe(moments) + 0.001 - thermocapillary_drop.fitted(moments)).max()
+    assert row["value"] == pytest.approx(expected / 0.15113, rel=1e-3) and row["pass"] is False

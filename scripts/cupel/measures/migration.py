@@ -4,9 +4,10 @@
                       reference: the unbounded limit in creeping flow (approach it by making the box larger)
     migration_error   greatest |U/U_r - table|/plateau over the snapshots of `between` between t/t_r = 0.102 and 1.9, the times that
                       Ma and Bothe's table covers; reference 0
+    migration_error_sharp_interface   the same for the curve by finite elements that fit the drop, over its own greatest value
 
-Beside the velocity stands how far the drop's centroid has come since the first snapshot; beside the error, the velocity by finite
-elements that fit the drop, and in the note the greatest distance to that curve over its own greatest value.
+Beside the velocity stands how far the drop's centroid has come since the first snapshot; beside an error, the velocity and that of the
+curve.
 """
 
 from __future__ import annotations
@@ -98,17 +99,23 @@ def _greatest(readings: list[Reading]) -> Reading:
     known = [reading.value for reading in readings if reading.value is not None]
     if len(known) < 8:
         return Reading(None, note=f"only {len(known)} snapshots of the window lie between t/t_r = 0.102 and 1.9; the curve needs 8")
-    distance = max(abs(reading.beside["velocity_over_U_r"] - reading.beside["fitted"]) for reading in readings if reading.value is not None)
-    return Reading(max(known), note=f"{distance / max(exact.FITTED_SPEED):.4f} from the curve by finite elements that fit the drop")
+    return Reading(max(known))
 
 
 @measure_of_snapshot("migration_error", unit="1", needs=("velocity",), exact=lambda case: 0.0, combine=_greatest)
 def migration_error(snapshot: Snapshot) -> Reading:
+    return _distance(snapshot, exact.ma_bothe, exact.MA_BOTHE_PLATEAU)
+
+
+@measure_of_snapshot("migration_error_sharp_interface", unit="1", needs=("velocity",), exact=lambda case: 0.0, combine=_greatest)
+def migration_error_sharp_interface(snapshot: Snapshot) -> Reading:
+    return _distance(snapshot, exact.fitted, max(exact.FITTED_SPEED))
+
+
+def _distance(snapshot: Snapshot, curve, greatest: float) -> Reading:
+    """How far the drop's U/U_r is from a curve at the snapshot's t/t_r, over `greatest`; none where the table ends."""
     speed, time = ma_bothe_units(snapshot.case)
     relative, moment = snapshot.once(_velocity) / speed, snapshot.elements.time / time
-    expected = float(exact.ma_bothe(moment))
-    beside = {"velocity_over_U_r": relative, "time_over_t_r": moment, "table": expected if np.isfinite(expected) else None,
-              "fitted": float(exact.fitted(moment)) if np.isfinite(expected) else None}
-    if not np.isfinite(expected):
-        return Reading(None, beside=beside)
-    return Reading(abs(relative - expected) / exact.MA_BOTHE_PLATEAU, beside=beside)
+    known = bool(np.isfinite(exact.ma_bothe(moment)))
+    beside = {"velocity_over_U_r": relative, "time_over_t_r": moment, "curve": float(curve(moment)) if known else None}
+    return Reading(abs(relative - beside["curve"]) / greatest if known else None, beside=beside)
