@@ -26,6 +26,8 @@ DEPENDS_ON = {
     "sph": ("sph_solver", "CMakeLists.txt"),
     "openfoam": ("reference_openfoam", "CMakeLists.txt"),
 }
+# What the reference reads of `numerics`; all else there is SPH's, and none of what the reference has is.
+READ_BY_REFERENCE = ("time_step_factor", "openfoam")
 MEASURED_BY = ("scripts/cupel/measures", "scripts/cupel/exact")
 NOT_CODE = (":(exclude)*.md",)
 
@@ -42,7 +44,7 @@ def keep(root: Path, members: list[Member], solvers: tuple[str, ...], level: str
     """
     chosen, variant = [], variant_of(level, formulation)
     for member in members:
-        present = member.resolve(level, *_overrides(formulation))["hash"]
+        present = member.resolve(level, *_overrides(formulation))
         for solver in solvers:
             place = ResultPlace(root, member.name, solver, variant)
             chosen.append((place, _fit_to_keep(place, present), member.kept / solver / variant))
@@ -55,7 +57,23 @@ def _overrides(formulation: str) -> tuple[list[str], ...]:
     return () if formulation == DEFAULT else (overrides_of(formulation),)
 
 
-def _fit_to_keep(place: ResultPlace, present_hash: str) -> dict:
+def same_case(solver: str, one: dict, other: dict) -> bool:
+    """Whether two resolved cases are the same to a solver: their hashes are equal, or only what the other solver reads differs."""
+    return one.get("hash") == other.get("hash") or _as_read_by(solver, one) == _as_read_by(solver, other)
+
+
+def _as_read_by(solver: str, settings: dict) -> dict:
+    """A resolved case without what does not decide what is computed: where files lie, and numerics that the solver does not read."""
+    rest = {key: value for key, value in settings.items() if key not in ("hash", "case_file", "numerics")}
+    rest["bodies"] = [{key: value for key, value in body.items() if key != "file"} for body in settings.get("bodies") or []]
+    numerics = settings.get("numerics") or {}
+    read = [key for key in numerics if (key in READ_BY_REFERENCE if solver == "openfoam" else key != "openfoam")]
+    # A result without a resolved case beside its hash is known by that alone.
+    known = {} if "numerics" in settings else {"hash": settings.get("hash")}
+    return rest | known | {"numerics": {key: numerics[key] for key in read}}
+
+
+def _fit_to_keep(place: ResultPlace, present: dict) -> dict:
     """The result at `place` if it may be kept."""
     result = read_result(place)
     if result is None:
@@ -68,7 +86,7 @@ def _fit_to_keep(place: ResultPlace, present_hash: str) -> dict:
                          "commit the changes, build and run it again")
     if not _git("cat-file", "-e", f"{commit}^{{commit}}").ok:
         raise CupelError(f"{place}: its commit {commit} is not in this repository; run it again")
-    if result["settings"]["hash"] != present_hash:
+    if not same_case(place.solver, result["settings"], present):
         raise CupelError(f"{place}: the case file resolves to something else now (its hash differs); run it again")
     return result
 
@@ -120,8 +138,8 @@ def _git(*arguments: str) -> _Answer:
 def age(result: dict) -> str:
     """What has changed since a kept result was made, in words; empty if nothing that it depends on has."""
     commit, parts = result["code"]["commit"], []
-    present = present_hash(result["case"], result["variant"])
-    if present is not None and result["settings"].get("hash") != present:
+    present = present_case(result["case"], result["variant"])
+    if present is not None and not same_case(result["solver"], result["settings"], present):
         parts.append("the case resolves to something else now")
     for what, paths in (("the solver", DEPENDS_ON.get(result["solver"], ())), ("the measures", MEASURED_BY)):
         if not paths:
@@ -137,14 +155,14 @@ def age(result: dict) -> str:
     return ", ".join(parts)
 
 
-def present_hash(case: str, variant: str) -> str | None:
-    """Hash of the case as its file resolves now; None where that cannot be told (no such case or variant, no build)."""
+def present_case(case: str, variant: str) -> dict | None:
+    """The case as its file resolves now; None where that cannot be told (no such case or variant, no build)."""
     parts = parts_of(variant)
     if parts is None:
         return None
     level, formulation = parts
     try:
-        return find_members(case)[0].resolve(level, *_overrides(formulation))["hash"]
+        return find_members(case)[0].resolve(level, *_overrides(formulation))
     except CupelError:
         return None
 
@@ -161,7 +179,7 @@ def regression_rows(fresh: dict) -> list[Row]:
     if kept is None or fresh["status"] != "completed":
         return []
     name = f"kept result of {kept['code']['commit']}"
-    if kept["settings"].get("hash") != fresh["settings"].get("hash"):
+    if not same_case(fresh["solver"], kept["settings"], fresh["settings"]):
         return [_row(fresh, "kept_result", note=f"{name} is of other settings: not compared; keep the fresh one")]
     before = {measure["name"]: measure for measure in kept["measures"]}
     return [_moved(fresh, measure, before[measure["name"]], name) for measure in fresh["measures"] if measure["name"] in before]

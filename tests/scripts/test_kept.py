@@ -14,7 +14,7 @@ from cupel.comparison import fill_solver_references
 from cupel.convergence import converge
 from cupel.errors import CupelError
 from cupel.judging import judged_at
-from cupel.kept import age, keep, regression_rows
+from cupel.kept import age, keep, regression_rows, same_case
 from cupel.layout import ROOT, ResultPlace
 from cupel.results import kept_folder, read_kept, read_result
 from tests.scripts.made_results import made_result
@@ -258,7 +258,7 @@ class TestAge:
 
     def test_a_case_that_resolves_to_something_else_is_said(self, repository, monkeypatch):
         made = self.commit(repository, "sph_solver/models/a.hpp")
-        monkeypatch.setattr(kept_module, "present_hash", lambda case, level: "new")
+        monkeypatch.setattr(kept_module, "present_case", lambda case, level: {"hash": "new"})
         assert age(self.result("sph", made)) == "the case resolves to something else now"
 
 
@@ -271,3 +271,18 @@ def test_kept_results_in_the_repository_are_whole():
         assert kept_folder(result["case"]) / result["solver"] / result["variant"] == path.parent
         assert (path.parent / "series.csv").exists(), path
         assert ResultPlace(Path("."), result["case"], result["solver"], result["variant"]), path
+
+
+def test_a_case_is_the_same_to_a_solver_whatever_only_the_other_one_reads():
+    def case(**numerics):
+        return {"hash": str(numerics), "case_file": str(numerics), "spacing": 1.0, "bodies": [{"file": str(numerics), "shape": "box"}],
+                "numerics": {"time_step_factor": 1.0, "shifting": 1.0, "openfoam": {"mesh": "following"}} | numerics}
+
+    assert same_case("openfoam", case(), case(shifting=0.5)) and not same_case("sph", case(), case(shifting=0.5))
+    assert same_case("openfoam", case(), case(new_key=1)) and not same_case("sph", case(), case(new_key=1))
+    static = {"mesh": "static"}
+    assert same_case("sph", case(), case(openfoam=static)) and not same_case("openfoam", case(), case(openfoam=static))
+    for solver in ("sph", "openfoam"):
+        assert not same_case(solver, case(), case(time_step_factor=0.5))
+        assert not same_case(solver, case(), case(shifting=0.5) | {"spacing": 2.0})
+        assert not same_case(solver, {"hash": "a"}, {"hash": "b"}) and same_case(solver, {"hash": "a"}, {"hash": "a"})
