@@ -13,8 +13,12 @@ DEFAULT = "default"
 # Name: what it changes, in words; overrides.
 FORMULATIONS = {
     DEFAULT: ("Cupel's own numerics", ()),
-    "paper": ("the paper's: artificial viscosity, stress and heat, its equation of state, no shifting, no density diffusion",
+    "paper": ("the paper's: artificial viscosity, stress and heat, a continuum surface force, no shifting, no density diffusion",
               ("numerics.formulation=paper",)),
+    "continuum_force": ("the default with Brackbill's continuum surface force in place of the load that is carried into the liquid",
+                        ("numerics.surface_load=continuum_force",)),
+    "no_contact_line_force": ("the default without Young's force at contact lines, normals on walls alone",
+                              ("numerics.contact_line_force=false",)),
     "no_shifting": ("the default without particle shifting (two phases: without their transport velocity)", ("numerics.shifting=0",)),
     "no_density_diffusion": ("the default without density diffusion", ("numerics.density_diffusion=0",)),
     "artificial_viscosity": ("the default with the paper's artificial viscosity", ("numerics.artificial_viscosity=0.1",)),

@@ -43,7 +43,8 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     const bool loads = with_tension_ || with_recoil_;
     // Thin edges at walls and films of melt among its solid are a few particles: too little for a field to be carried
     // in.
-    band_bears_load_ = loads && !scene.two_phase && scene.definition.requires_physics("wetting");
+    const bool continuum_force = scene.definition.numerics.surface_load == "continuum_force";
+    band_bears_load_ = loads && (continuum_force || (!scene.two_phase && scene.definition.requires_physics("wetting")));
     if (loads || with_marangoni_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
                                                     loads && !scene.two_phase && !band_bears_load_);
@@ -60,7 +61,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (loads) load_ = &particles_.add_scalar({"surface_load", "Pa"});
-    if (band_bears_load_) {
+    if (band_bears_load_ && !continuum_force) {
         mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
         load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
     }
@@ -213,7 +214,7 @@ void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_kno
         }
         (*load_)[i] = load;
     });
-    if (!band_bears_load_) return;
+    if (!mean_load_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
 }
@@ -230,8 +231,9 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const double delta = surface.delta[i];
             Vector force_density{};
             if (band_bears_load_)
-                force_density +=
-                    surface_load_force((*mean_load_)[i], (*load_gradient_)[i], surface.depth[i], normal, delta);
+                force_density += mean_load_ ? surface_load_force((*mean_load_)[i], (*load_gradient_)[i],
+                                                                 surface.depth[i], normal, delta)
+                                            : surface_load_force((*load_)[i], {}, 0.0, normal, delta);
             if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
             const double lightness = 1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i]);
             by_surface += lightness * force_density;

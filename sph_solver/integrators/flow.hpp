@@ -160,7 +160,7 @@ private:
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
-    ScalarField* mean_load_ = nullptr; ///< only where the band bears the load
+    ScalarField* mean_load_ = nullptr; ///< only where the band bears the load at its place
     VectorField* load_gradient_ = nullptr;
     ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
     double bonds_ = 0.0;

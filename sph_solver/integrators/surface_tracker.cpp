@@ -37,11 +37,16 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
             scalar("wall_cosine_sum"), scalar("wall_distance_sum"), scalar("wall_curvature_sum"),
             particles_.add_vector({"wall_foot_sum", "1"}), particles_.add_vector({"wall_lateral_sum", "1"}),
             scalar("wall_primary_sum"), scalar("wall_other_sum")});
-        if (needs_curvature_) {
+        if (needs_curvature_ && scene.definition.numerics.contact_line_force) {
             wall_pull_ = &particles_.add_vector({"wall_pull", "1"});
             contact_pull_ = &particles_.add_vector({"contact_pull", "1/m"});
         }
     }
+}
+
+void SurfaceTracker::start(const Neighbourhood& neighbourhood)
+{
+    if (wall_interface_) prescribe_wall_normals(neighbourhood, clusters_of_walls(neighbourhood));
 }
 
 void SurfaceTracker::find(const Neighbourhood& neighbourhood)
@@ -65,6 +70,16 @@ void SurfaceTracker::find_band(const Neighbourhood& neighbourhood)
     });
 }
 
+std::vector<Index> SurfaceTracker::clusters_of_walls(const Neighbourhood& neighbourhood) const
+{
+    std::vector<Index> walls;
+    for (const Index c : neighbourhood.standing())
+        if (!none_in(neighbourhood.list().cluster(c),
+                     [&](Index i) { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }))
+            walls.push_back(c);
+    return walls;
+}
+
 /// Walls take the colour and the normal that the contact angle asks for, and the liquid that touches them sees its
 /// surface anew.
 void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
@@ -72,11 +87,7 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     // What has left the walls is pulled no longer.
     if (contact_pull_) neighbourhood.for_each_moving([&](Index i) { contact_pull_->set(i, {}); });
     const NeighbourList& list = neighbourhood.list();
-    std::vector<Index> walls;
-    for (const Index c : neighbourhood.standing())
-        if (!none_in(list.cluster(c),
-                     [&](Index i) { return particles_.kind[static_cast<std::size_t>(i)] == Kind::wall; }))
-            walls.push_back(c);
+    const std::vector<Index> walls = clusters_of_walls(neighbourhood);
     if (walls.empty()) return;
     prescribe_wall_normals(neighbourhood, walls);
 

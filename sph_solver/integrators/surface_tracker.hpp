@@ -20,6 +20,9 @@ public:
     SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
                    const ScalarField& mobility, bool sharpens);
 
+    /// Before the first step walls take the colour of what they see most of. With one that is not there they show the
+    /// liquid in a corner a surface, which they then continue, and which so stays for ever.
+    void start(const Neighbourhood& neighbourhood);
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
     ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, fields_}; }
     void find(const Neighbourhood& neighbourhood);
@@ -41,6 +44,7 @@ public:
 private:
     void finish_gradient(Index i);
     void find_band(const Neighbourhood& neighbourhood);
+    std::vector<Index> clusters_of_walls(const Neighbourhood& neighbourhood) const;
     void wet_walls(const Neighbourhood& neighbourhood);
     void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void smooth_normals(const Neighbourhood& neighbourhood);

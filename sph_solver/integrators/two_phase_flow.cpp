@@ -52,7 +52,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     if (most_viscous > least_viscous) excess_viscosity_ = &particles_.add_scalar({"excess_viscosity", "Pa s"});
     transports_ = scene.definition.numerics.shifting > 0.0;
     if (excess_viscosity_ || transports_) velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
-    if (load_) {
+    if (load_ && !band_bears_load_) {
         excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
         carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
         carried_load_of_other_ = &particles_.add_scalar({"carried_load_of_other", "Pa"});
@@ -94,6 +94,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_velocity(),
                   WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
     compress_walls(neighbourhood, time_step == 0.0, sound);
+    if (surface_ && time_step == 0.0) surface_->start(neighbourhood);
     find_gradients(neighbourhood);
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood);

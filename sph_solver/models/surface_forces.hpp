@@ -33,7 +33,8 @@ struct SurfaceTensionLaw
 /// wave). Derivation: the true load is a pressure L on the surface. With Θ the share of δ that lies above a depth, the
 /// pressure p' = p − L (1 − Θ) is zero on the surface, as SPH has it there, and obeys −∇p = −∇p' + L∇Θ − (1 − Θ)∇L:
 /// CSF's force and a tangential one, whose integral over the band is −∇L times the mean depth of δ. Where σκ and p_r
-/// balance, L is the same everywhere and nothing drives the liquid along its surface.
+/// balance, L is the same everywhere and nothing drives the liquid along its surface. Where a case asks for Brackbill's
+/// own force (`surface_load = "continuum_force"`), L is that of each particle and ∇L is left out.
 inline Vector surface_load_force(double load, const Vector& load_gradient, double depth, const Vector& normal,
                                  double delta)
 {

@@ -156,6 +156,8 @@ Numerics numerics_from(const json& table)
     numerics.artificial_heat = table.at("artificial_heat");
     numerics.density_diffusion = table.at("density_diffusion");
     numerics.shifting = table.at("shifting");
+    numerics.surface_load = table.at("surface_load");
+    numerics.contact_line_force = table.at("contact_line_force");
     numerics.sound_speed = optional_number(table, "sound_speed");
     numerics.sound_speed_factor = table.at("sound_speed_factor");
     numerics.reference_speed = optional_number(table, "reference_speed");

@@ -187,6 +187,8 @@ struct Numerics
     double artificial_heat = 0;
     double density_diffusion = 0;
     double shifting = 0;                   ///< strength, 0 = off, 1 = full
+    std::string surface_load = "carried";  ///< "carried" or "continuum_force"
+    bool contact_line_force = true;
     std::optional<double> sound_speed;     ///< [m/s]
     double sound_speed_factor = 10;        ///< sound speed / greatest expected speed
     std::optional<double> reference_speed; ///< greatest expected speed [m/s]

@@ -72,6 +72,11 @@ Table numerics_declaration()
              .at_most(2)
              .or_else(1.0)
              .in_paper(0.0),
+         choice("surface_load", {"carried", "continuum_force"},
+                "what presses on a surface: a pressure carried into the liquid, or Brackbill's force in its band")
+             .or_else("carried")
+             .in_paper("continuum_force"),
+         plain("contact_line_force", Type::boolean, "whether Young's force pulls at contact lines").or_else(true),
          quantity("sound_speed", "m/s", "artificial sound speed")
              .above(0)
              .derived("sound_speed_factor times the greatest expected speed"),
@@ -84,9 +89,8 @@ Table numerics_declaration()
              .above(0)
              .at_most(10)
              .or_else(1.0),
-         plain(
-             "acoustic_substeps", Type::integer,
-             "most steps by which sound is followed within one step of all else, with a free surface; 1 = as all else")
+         plain("acoustic_substeps", Type::integer,
+               "most steps by which sound is followed within one step of all else; 1 = as all else")
              .at_least(1)
              .at_most(8)
              .or_else(4)

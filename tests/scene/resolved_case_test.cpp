@@ -154,6 +154,8 @@ TEST(ResolvedCase, PapersFormulationIsItsSetOfRemedies)
     const nlohmann::json numerics = resolved(drop_case, {"numerics.formulation=paper"}).at("numerics");
     EXPECT_EQ(numerics.at("artificial_stress"), 0.2);
     EXPECT_EQ(numerics.at("shifting"), 0.0);
+    EXPECT_EQ(numerics.at("surface_load"), "continuum_force");
+    EXPECT_EQ(numerics.at("contact_line_force"), true);
     const nlohmann::json chosen =
         resolved(drop_case, {"numerics.formulation=paper", "numerics.artificial_stress=0.1"}).at("numerics");
     EXPECT_EQ(chosen.at("artificial_stress"), 0.1);

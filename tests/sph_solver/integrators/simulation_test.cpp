@@ -129,6 +129,40 @@ TEST(Simulation, SurfaceTensionDrivesALightPhaseAsTheHeavyOne)
     EXPECT_LT(light, 2.0 * heavy);
 }
 
+TEST(Simulation, CornersOfABoxAreNoSurface)
+{
+    const Simulation simulation = simulate(drop_in_a_light_liquid(), 3);
+    const Particles& particles = simulation.particles();
+    for (Index i = 0; i < particles.count(); ++i)
+        if (norm(particles.position[i] - Vector{1, 0, 0.75}) > 0.4 + 4.0 * 0.05) {
+            EXPECT_EQ(particles.scalar("surface_delta")[i], 0.0)
+                << particles.position[i].x << " " << particles.position[i].z;
+        }
+}
+
+TEST(Simulation, ContinuumSurfaceForceIsTheLoadTimesDeltaAlongTheNormal)
+{
+    for (Case definition : {drop_in_nothing(), drop_in_a_light_liquid()}) {
+        EXPECT_TRUE(simulate(definition, 0).particles().has("carried_load"));
+        definition.numerics.surface_load = "continuum_force";
+        const Simulation simulation = simulate(definition, 0);
+        const Particles& particles = simulation.particles();
+        EXPECT_FALSE(particles.has("carried_load"));
+        const bool two_phase = definition.surrounding.has_value();
+        double greatest = 0.0;
+        for (Index i = 0; i < particles.count(); ++i) {
+            const double delta = particles.scalar("surface_delta")[i];
+            if (delta == 0.0) continue;
+            const double load = 1.0 * particles.scalar("curvature")[i], density = two_phase ? 0.5005 : 1.0;
+            const Vector expected = (-delta * load / density) * particles.vector("surface_normal")[i];
+            const Vector pairs = (1.0 / particles.mass[i]) * particles.vector("force")[i];
+            EXPECT_LT(norm(particles.vector("acceleration")[i] - pairs - expected), 1e-9 * (1.0 + norm(expected)));
+            greatest = std::max(greatest, norm(expected));
+        }
+        EXPECT_GT(greatest, 10.0);
+    }
+}
+
 /// For as long as sound takes to cross it some tens of times.
 TEST(Simulation, DropInNothingHasItsLaplacePressureAndRests)
 {
