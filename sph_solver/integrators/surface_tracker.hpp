@@ -17,7 +17,7 @@ namespace cupel::inline CUPEL_ENGINE
 class SurfaceTracker
 {
 public:
-    SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
+    SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
                    const ScalarField& mobility, bool sharpens);
 
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
@@ -48,7 +48,7 @@ private:
     void sharpen_curvature(const Neighbourhood& neighbourhood, double greatest);
 
     Particles& particles_;
-    QuinticSpline kernel_;
+    SmoothingKernel kernel_;
     Mobility mobility_;
     ColourProfile profile_;
     SurfaceFields fields_;
