@@ -24,7 +24,7 @@ SurfaceTensionLaw surface_tension_law(const Material& liquid)
 
 Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : scene_(scene), particles_(*scene.particles), parameters_(parameters),
-      kernel_(parameters.smoothing_length, scene.dimensions), mobility_{mobility},
+      kernel_(scene.definition.numerics.kernel, parameters.smoothing_length, scene.dimensions), mobility_{mobility},
       gravity_{scene.definition.gravity[0], scene.definition.gravity[1], scene.definition.gravity[2]},
       force_(particles_.add_vector({"force", "N"})), pressure_force_(particles_.add_vector({"pressure_force", "N"})),
       viscous_force_(particles_.add_vector({"viscous_force", "N"})),

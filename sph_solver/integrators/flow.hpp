@@ -126,7 +126,7 @@ protected:
     Scene& scene_;
     Particles& particles_;
     FlowParameters parameters_;
-    QuinticSpline kernel_;
+    SmoothingKernel kernel_;
     Mobility mobility_;
     Vector gravity_;
     VectorField& force_; ///< of all pairs

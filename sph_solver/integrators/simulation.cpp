@@ -22,7 +22,7 @@ FlowParameters parameters_of(const Scene& scene, bool has_flow)
 
 double support_of(const Scene& scene, const FlowParameters& parameters)
 {
-    return QuinticSpline(parameters.smoothing_length, scene.dimensions).support();
+    return SmoothingKernel(scene.definition.numerics.kernel, parameters.smoothing_length, scene.dimensions).support();
 }
 
 Images images_of(const Scene& scene, const FlowParameters& parameters)

@@ -17,7 +17,7 @@ bool has_kind(const Particles& particles, Kind kind)
 
 } // namespace
 
-SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
+SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
                                const ScalarField& mobility, bool sharpens)
     : particles_(*scene.particles), kernel_(kernel), mobility_{mobility}, profile_(kernel, scene.dimensions),
       fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),

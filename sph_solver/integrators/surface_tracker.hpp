@@ -17,7 +17,7 @@ namespace cupel::inline CUPEL_ENGINE
 class SurfaceTracker
 {
 public:
-    SurfaceTracker(Scene& scene, const FlowParameters& parameters, const QuinticSpline& kernel,
+    SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
                    const ScalarField& mobility, bool sharpens);
 
     /// Before the first step walls take the colour of what they see most of. With one that is not there they show the
@@ -52,7 +52,7 @@ private:
     void sharpen_curvature(const Neighbourhood& neighbourhood, double greatest);
 
     Particles& particles_;
-    QuinticSpline kernel_;
+    SmoothingKernel kernel_;
     Mobility mobility_;
     ColourProfile profile_;
     SurfaceFields fields_;

@@ -48,7 +48,8 @@ const Surrounding& needed_surrounding(const Case& definition)
 
 ThermalStep::ThermalStep(Scene& scene)
     : particles_(*scene.particles), dimensions_(scene.dimensions), spacing_(scene.spacing),
-      smoothing_length_(smoothing_length_of(scene)), kernel_(smoothing_length_, scene.dimensions),
+      smoothing_length_(smoothing_length_of(scene)),
+      kernel_(scene.definition.numerics.kernel, smoothing_length_, scene.dimensions),
       materials_(thermal_materials(scene)), walls_(scene.definition.domain, kernel_, scene.spacing, scene.dimensions),
       temperature_(particles_.add_scalar({"temperature", "K", Output::yes})),
       enthalpy_(particles_.add_scalar({"enthalpy", "J/kg"})),

@@ -112,7 +112,7 @@ private:
     Particles& particles_;
     int dimensions_;
     double spacing_, smoothing_length_;
-    QuinticSpline kernel_;
+    SmoothingKernel kernel_;
     std::vector<ThermalMaterial> materials_;
     ThermalWalls walls_;
     SurfaceLosses losses_;

@@ -18,7 +18,7 @@ namespace
 {
 
 /// Σ W over a lattice, 1/m³: near 1/Δx³ and not quite.
-double lattice_number(const QuinticSpline& kernel, double spacing, int dimensions)
+double lattice_number(const SmoothingKernel& kernel, double spacing, int dimensions)
 {
     const int reach = static_cast<int>(std::ceil(kernel.support() / spacing)), across = dimensions == 2 ? 0 : reach;
     double sum = 0.0;

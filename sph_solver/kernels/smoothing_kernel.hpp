@@ -1,68 +1,37 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <numbers>
+#include <string_view>
 
-#include "math/vector.hpp"
+#include "kernels/quintic_spline.hpp"
+#include "kernels/root_free.hpp"
 
 namespace cupel
 {
 
-/// Value and radial derivative of a smoothing kernel at one distance.
-template <class Scalar> struct KernelValue
-{
-    Scalar value;           ///< W(r), 1/m³ (1/m² in two dimensions)
-    Scalar gradient_over_r; ///< (1/r) dW/dr: ∇W = gradient_over_r · (x_i − x_j)
-};
-
-/// Quintic spline (Morris, Fox, Zhu 1997), support 3 h:
-///
-///   W(q) = a [(3−q)₊⁵ − 6 (2−q)₊⁵ + 15 (1−q)₊⁵],   q = r/h,   a = 7/(478 π h²) in 2-D, 1/(120 π h³) in 3-D.
-///
-/// With h equal to the particle spacing its gradients on a lattice err by 0.1 %.
-class QuinticSpline
+/// The solver's kernel: the one that a case names. Both reach 3 h.
+class SmoothingKernel
 {
 public:
-    QuinticSpline(double smoothing_length, int dimensions)
-        : inverse_h_(1.0 / smoothing_length), support_(3.0 * smoothing_length)
-    {
-        const double h = smoothing_length;
-        const double factor =
-            dimensions == 2 ? 7.0 / (478.0 * std::numbers::pi * h * h) : 1.0 / (120.0 * std::numbers::pi * h * h * h);
-        for (std::size_t n = 0; n < 3; ++n) {
-            const double scale = std::pow(5.0 * factor / h * weights[n], 0.25);
-            pieces_[n] = {scale * static_cast<double>(3 - n), scale / h, factor * weights[n] / std::pow(scale, 5.0)};
-        }
-    }
+    /// name: "root_free" or "quintic_spline"; smoothing_length in m.
+    SmoothingKernel(std::string_view name, double smoothing_length, int dimensions)
+        : root_free_(smoothing_length, dimensions), spline_(smoothing_length, dimensions),
+          is_spline_(name == "quintic_spline")
+    {}
 
-    double smoothing_length() const { return 1.0 / inverse_h_; }
-    double support() const { return support_; }
+    double smoothing_length() const { return root_free_.smoothing_length(); }
+    double support() const { return root_free_.support(); }
 
-    /// Of r² in m², above zero; zero beyond the support. Each piece is scaled so that its fourth power is its part of
-    /// dW/dr and needs no factor.
+    /// Of r² in m², above zero; zero beyond the support.
     template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
     {
-        const Scalar inverse_r = reciprocal_root_of_positive(square);
-        const Scalar r = square * inverse_r;
-        const auto piece = [&](const Piece& p) { return maximum(p.height - p.slope * r, Scalar{}); };
-        const Scalar a = piece(pieces_[0]), b = piece(pieces_[1]), c = piece(pieces_[2]);
-        const Scalar a4 = a * a * (a * a), b4 = b * b * (b * b), c4 = c * c * (c * c);
-        return {a4 * (pieces_[0].value * a) - b4 * (pieces_[1].value * b) + c4 * (pieces_[2].value * c),
-                (b4 - a4 - c4) * inverse_r};
+        return is_spline_ ? spline_.of_square(square) : root_free_.of_square(square);
     }
-    KernelValue<double> operator()(double r) const { return of_square(maximum(r * r, 1e-30 * support_ * support_)); }
+    KernelValue<double> operator()(double r) const { return is_spline_ ? spline_(r) : root_free_(r); }
 
 private:
-    /// (height − slope r)₊, and what its fifth power is multiplied by for W.
-    struct Piece
-    {
-        double height, slope, value;
-    };
-    static constexpr std::array<double, 3> weights{1.0, 6.0, 15.0};
-
-    double inverse_h_, support_;
-    std::array<Piece, 3> pieces_{};
+    RootFree root_free_;
+    QuinticSpline spline_;
+    bool is_spline_;
 };
 
 } // namespace cupel

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/smoothing_kernel.hpp"
+#include "kernels/kernel_value.hpp"
+#include "math/vector.hpp"
 
 namespace cupel
 {

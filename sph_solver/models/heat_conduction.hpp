@@ -81,7 +81,7 @@ struct HeatConduction
 ///   0.2 Δx                −3.5 / −2.1 %     0.0 / +0.2 %  (+0.04 / 0.00 Δx)
 ///   0.3 Δx                −7.5 / −4.4 %     −0.2 / +0.6 %  (−0.01 / −0.04 Δx)
 ///
-/// Γ and M count as 0.2 at least, just above the share of a particle alone in space (0.175 in three dimensions).
+/// Γ and M count as 0.2 at least, just above the share of a particle alone in space (0.171 in three dimensions).
 struct KernelCompleteness
 {
     static constexpr double smallest = 0.2;

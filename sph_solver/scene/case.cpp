@@ -149,6 +149,7 @@ Numerics numerics_from(const json& table)
     Numerics numerics;
     numerics.formulation = table.at("formulation");
     numerics.precision = table.at("precision");
+    numerics.kernel = table.at("kernel");
     numerics.smoothing_ratio = table.at("smoothing_ratio");
     numerics.artificial_viscosity = table.at("artificial_viscosity");
     numerics.artificial_viscosity_beta = table.at("artificial_viscosity_beta");

@@ -180,6 +180,7 @@ struct Numerics
 {
     std::string formulation = "default"; ///< "default" or "paper"
     std::string precision = "double";    ///< of pair arithmetic: "double" or "float"
+    std::string kernel = "root_free";    ///< or "quintic_spline"
     double smoothing_ratio = 1.0;        ///< smoothing length / particle spacing
     double artificial_viscosity = 0;
     double artificial_viscosity_beta = 0;

@@ -39,6 +39,8 @@ Table numerics_declaration()
              .or_else("default"),
          choice("precision", {"double", "float"}, "of pair arithmetic; positions and sums over time are double")
              .or_else("double"),
+         choice("kernel", {"root_free", "quintic_spline"}, "smoothing kernel; both reach three smoothing lengths")
+             .or_else("root_free"),
          quantity("smoothing_ratio", "1", "smoothing length over particle spacing")
              .at_least(0.8)
              .at_most(3)

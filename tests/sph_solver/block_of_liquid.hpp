@@ -28,7 +28,7 @@ struct Block
     Particles particles;
     ScalarField& mobility;
     Neighbourhood neighbourhood;
-    QuinticSpline kernel;
+    RootFree kernel;
     CorrectionMatrix correction;
 };
 

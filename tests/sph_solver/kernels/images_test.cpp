@@ -75,7 +75,7 @@ std::vector<Sums> probe(Particles& particles, NeighbourList& list, int dimension
     ScalarField& filling = particles.add_scalar({"filling", "1"});
     VectorField& gradient = particles.add_vector({"filling_gradient", "1/m"});
     VectorField& velocity = particles.add_vector({"mean_velocity", "m/s"});
-    for_each_pair(list, particles, QuinticSpline(1.0, dimensions), all,
+    for_each_pair(list, particles, RootFree(1.0, dimensions), all,
                   Probe{particles.volume, particles.velocity, filling, gradient, velocity});
     std::vector<Sums> sums(static_cast<std::size_t>(particles.count()));
     for (Index i = 0; i < particles.count(); ++i)
@@ -146,7 +146,7 @@ TEST_P(ImageSides, SumsEqualThoseOfAllPairsWithTheirImages)
     const auto sums = probe(particles, neighbours, dimensions());
     const Images& images = neighbours.images();
     ASSERT_TRUE(images.any());
-    const QuinticSpline kernel(1.0, dimensions());
+    const RootFree kernel(1.0, dimensions());
     for (Index i = 0; i < particles.count(); ++i) {
         Sums exact;
         const auto meet = [&](const Vector& place, const Vector& velocity) {

@@ -27,7 +27,7 @@ double pull(int dimensions, double gap)
     }
     Neighbourhood neighbourhood(3.0, 0.3, 1.0, dimensions);
     neighbourhood.rebuild(particles, mobility);
-    for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, dimensions), neighbourhood.moving(),
+    for_each_pair(neighbourhood.list(), particles, RootFree(1.0, dimensions), neighbourhood.moving(),
                   Cohesion{{mobility},
                            1.0,
                            1.0,
@@ -77,7 +77,7 @@ TEST_P(CohesionIn, PairForcesCancel)
     }
     Neighbourhood neighbourhood(3.0, 0.3, 1.0, GetParam());
     neighbourhood.rebuild(particles, mobility);
-    for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, GetParam()), neighbourhood.moving(),
+    for_each_pair(neighbourhood.list(), particles, RootFree(1.0, GetParam()), neighbourhood.moving(),
                   Cohesion{{mobility},
                            1.0,
                            1.0,
@@ -121,7 +121,7 @@ TEST(Cohesion, SolidsAreAsThinAsTheyLook)
     }
     Neighbourhood neighbourhood(3.0, 0.3, 1.0, 3);
     neighbourhood.rebuild(particles, mobility);
-    for_each_pair(neighbourhood.list(), particles, QuinticSpline(1.0, 3), neighbourhood.all(),
+    for_each_pair(neighbourhood.list(), particles, RootFree(1.0, 3), neighbourhood.all(),
                   CompanionsOfSolids{{mobility}, 1.0, lattice_companions(3), particles.kind, unresolved});
     EXPECT_EQ(unresolved[particles.place_of(inside)], 0.0);
     EXPECT_EQ(unresolved[particles.place_of(alone)], 1.0);

@@ -435,7 +435,7 @@ TEST(EquationOfState, DensityAndPressureAreInverse)
 
 TEST(ColourProfile, IsOneHalfOnTheSurfaceAndInverseToItself)
 {
-    const QuinticSpline kernel(1.0, 3);
+    const RootFree kernel(1.0, 3);
     const ColourProfile profile(kernel, 3);
     EXPECT_NEAR(profile.depth(0.5), 0.0, 1e-12);
     // w integrates to one: what lies above s and what lies below add up.
