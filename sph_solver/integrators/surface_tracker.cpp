@@ -120,6 +120,20 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
 }
 
+/// Whether a wall particle sees enough of both liquids to be where their interface meets the wall: a fifth of what it
+/// would see of each in the wedge of Young's angle. A continued interface is nothing that liquid has to bear out: a
+/// wall that had the primary liquid's colour under the other one showed that a surface, went on continuing it, and a
+/// drop of 30 degrees crept along its wall without end. The fifth is chosen: it leaves the place at which the continued
+/// interface passes (all of the wedge), and one spacing further out.
+bool SurfaceTracker::meets_surface(Index top) const
+{
+    if (!two_phase_) return true;
+    constexpr double share = 0.2;
+    const double primary = wall_interface_->primary_sum[top], other = wall_interface_->other_sum[top];
+    const double wedge = contact_angle_ / std::numbers::pi, all = primary + other;
+    return primary > share * wedge * all && other > share * (1.0 - wedge) * all;
+}
+
 void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
@@ -142,7 +156,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
             const Index top = particles_.place_of(parent);
             const Vector lateral = wall.lateral_sum[top];
             const double length = norm(lateral);
-            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0) {
+            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0 && meets_surface(top)) {
                 const Vector inward = wall.wall_normal[i], along = (1.0 / length) * lateral;
                 const double scale = 1.0 / wall.weight_sum[top];
                 const double slope = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);

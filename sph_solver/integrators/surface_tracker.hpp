@@ -46,6 +46,7 @@ private:
     void find_band(const Neighbourhood& neighbourhood);
     std::vector<Index> clusters_of_walls(const Neighbourhood& neighbourhood) const;
     void wet_walls(const Neighbourhood& neighbourhood);
+    bool meets_surface(Index top) const;
     void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void smooth_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);

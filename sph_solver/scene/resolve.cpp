@@ -261,12 +261,10 @@ json resolved_numerics(const json& values)
     return numerics;
 }
 
-/// Over all that decides what is computed, and nothing that depends on where the files lie. The kernel, which one
-/// solver has and the other has not, makes another case only where one is asked for.
+/// Over all that decides what is computed, and nothing that depends on where the files lie.
 std::string content_hash(json resolved)
 {
     resolved.erase("case_file");
-    if (resolved.at("numerics").at("kernel") == "root_free") resolved.at("numerics").erase("kernel");
     for (json& body : resolved.at("bodies"))
         body.erase("file");
     return sha256(resolved.dump());
