@@ -4,8 +4,9 @@
 ///   H = position of the interface in a column of cells along the axis nearest to its normal: Σ α Δ from full to empty
 ///   κ = −[H_xx (1 + H_y²) + H_yy (1 + H_x²) − 2 H_xy H_x H_y]/(1 + H_x² + H_y²)^{3/2}
 ///
-/// from three columns each way; where five are there and no edge between them is steeper than 45°, as the mean over the
-/// middle one of −∇·[∇H/(1 + |∇H|²)^½] with slopes of fourth order on its edges: (15 (H₁ − H₀) − (H₂ − H₋₁))/12Δ.
+/// from three columns each way; where five are there and no edge between them is steeper than 45° across and 27° along
+/// itself, as the mean over the middle one of −∇·[∇H/(1 + |∇H|²)^½] with slopes of fourth order on its edges:
+/// (15 (H₁ − H₀) − (H₂ − H₋₁))/12Δ.
 ///
 /// At a wall the row of heights behind it follows from the contact angle θ (Afkhami and Bussmann 2009 continue with the
 /// slope cotθ √(1 + H_y²) alone), here as an arc that meets the wall at θ; cotθ = 0 at symmetry planes and where
@@ -13,11 +14,12 @@
 ///
 /// H is taken toward the surrounding, so a drop has κ > 0. A cell has this curvature if all columns of its 3 × 3
 /// stencil go from full to empty within reach and the stencil does not leave the mesh through an open side (through a
-/// periodic one it comes in at the other end). Another one, more than two cells from the sides, has that of a
-/// paraboloid fitted to the heights along all axes around it (paraboloid_fit.hpp): on a sphere of five cells a radius
-/// those around its space diagonals, where the smoothed normals of the remaining cells are 7 % off, enough to shake the
-/// drop at 0.3 m/s and more. Second order on smooth interfaces, where the divergence of a smoothed normal is several
-/// per cent off at every resolution.
+/// periodic one it comes in at the other end). Where five columns do not give it, more than two cells from the sides, a
+/// cell has that of a paraboloid fitted to the heights along all axes around it (paraboloid_fit.hpp), less its
+/// fourth-order term: on a sphere of five cells a radius, around its space diagonals, smoothed normals are 7 % off,
+/// three columns 0.9 %, a bare paraboloid 2.7 %, each enough to shake the drop where cells with one lie beside cells
+/// with another. Second order on smooth interfaces, where the divergence of a smoothed normal is several per cent off
+/// at every resolution.
 #pragma once
 
 #include "block_grid.hpp"

@@ -68,6 +68,14 @@ scalar ParaboloidFit::curvature() const
     return -2 * numerator / std::pow(1 + sqr(c_[1]) + sqr(c_[2]), 1.5);
 }
 
+scalar ParaboloidFit::bend_beyond(const vector& point) const
+{
+    const scalar x = (point - origin_) & x_, y = (point - origin_) & y_;
+    const scalar square = c_[3] * x * x + c_[4] * x * y + c_[5] * y * y;
+    const scalar slope = sqr(2 * c_[3] * x + c_[4] * y) + sqr(c_[4] * x + 2 * c_[5] * y);
+    return 0.25 * square * min(slope, scalar(1));
+}
+
 vector ParaboloidFit::normal(const vector& point) const
 {
     const scalar x = (point - origin_) & x_, y = (point - origin_) & y_;

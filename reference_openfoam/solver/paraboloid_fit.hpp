@@ -23,6 +23,9 @@ public:
     bool fit(const std::vector<vector>& points, const std::vector<scalar>& weights);
 
     scalar curvature() const;
+    /// How far the surface bends beyond the paraboloid at a point: term of fourth order of a sphere or cylinder with
+    /// the paraboloid's square terms q, ¼ q |∇q|²; |∇q|² is taken as at most 1, beyond which the series says nothing.
+    scalar bend_beyond(const vector& point) const;
     /// Unit normal of the paraboloid, outward, above or below a point.
     vector normal(const vector& point) const;
 

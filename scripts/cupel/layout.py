@@ -13,7 +13,7 @@ CASES = ROOT / "validation_cases"
 PROGRAMS = Path(os.environ.get("CUPEL_BUILD") or ROOT / "build") / "bin"  # CUPEL_BUILD: a build folder elsewhere
 PYTHON = "/usr/bin/python3"
 LEVELS = ("coarse", "medium", "fine", "paper")
-TIERS = ("canonical", "v0", "v1", "v2")
+TIERS = ("canonical", "v0", "v1", "v2", "long")
 SOLVERS = ("sph", "openfoam")
 CANONICAL_CASES = ("droplet_wetting", "marangoni_layer", "slm_track_100w", "slm_track_150w", "slm_track_200w")
 

@@ -149,7 +149,7 @@ const std::vector<std::string>& level_names()
 
 const std::vector<std::string>& tier_names()
 {
-    static const std::vector<std::string> names{"canonical", "v0", "v1", "v2"};
+    static const std::vector<std::string> names{"canonical", "v0", "v1", "v2", "long"};
     return names;
 }
 

@@ -169,21 +169,24 @@ def test_a_wave_does_not_see_where_the_periodic_sides_are(tmp_path):
     assert energies[0]/(1/16) == pytest.approx(0.25*2.5e-3**2*(2*np.pi)**2, rel=0.25)
 
 
-def test_a_steel_drop_of_five_cells_a_radius_hangs_still_from_the_start(tmp_path):
-    # its speeds were 0.2 to 0.4 m/s as long as cells around the space diagonals had the curvature of smoothed normals
-    radius, tension, side = 5e-5, 1.8, 1e-4
+@pytest.mark.parametrize("offset, end", [((0.0, 0.0, 0.0), 5e-5), ((0.37, 0.37, 0.37), 5e-5), ((0.2, 0.45, 0.11), 1.5e-4)])
+def test_a_steel_drop_of_five_cells_a_radius_hangs_still_wherever_its_centre_lies(tmp_path, offset, end):
+    # 0.2 to 0.4 m/s where cells around the space diagonals had the curvature of smoothed normals; 0.12 to 0.18 m/s from 0.1 ms on
+    # where columns at the drop's limb came and went in a paraboloid's fit
+    radius, tension, side, spacing = 5e-5, 1.8, 1e-4, 1e-5
+    centre = spacing*np.array(offset)
     data = small_cases.case(
-        spacing=1e-5, physics=["flow", "surface_tension"], surrounding=small_cases.argon_surrounding(),
+        spacing=spacing, physics=["flow", "surface_tension"], surrounding=small_cases.argon_surrounding(),
         materials={"steel": {"density": 6900.0, "viscosity": 6e-3, "surface_tension": tension}, "argon": small_cases.ARGON},
         domain={"lower": [-side]*3, "upper": [side]*3, "boundaries": small_cases.boundaries()},
-        bodies=[{"shape": "sphere", "material": "steel", "state": "liquid", "center": [0.0, 0.0, 0.0], "radius": radius}],
-        time={"end": 5e-5, "output_interval": 5e-5})
+        bodies=[{"shape": "sphere", "material": "steel", "state": "liquid", "center": centre.tolist(), "radius": radius}],
+        time={"end": end, "output_interval": end})
     small_cases.completed(data, tmp_path)
-    assert small_cases.history(tmp_path)["maximum_speed_m_per_s"].max() < 0.03
+    assert small_cases.history(tmp_path)["maximum_speed_m_per_s"].max() < 0.04
     fields, centres = small_cases.last_fields(data, tmp_path)
-    distance = np.linalg.norm(centres, axis=1)
+    distance = np.linalg.norm(centres - centre, axis=1)
     jump = fields["pressure"][distance < 0.5*radius].mean() - fields["pressure"][distance > 1.6*radius].mean()
-    assert jump == pytest.approx(2*tension/radius, rel=0.02)
+    assert jump == pytest.approx(2*tension/radius, rel=0.005)
 
 
 def test_a_half_disc_draws_together_to_the_cap_of_a_wide_angle(tmp_path):

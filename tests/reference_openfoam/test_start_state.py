@@ -104,3 +104,18 @@ def test_a_solid_at_its_melting_point_starts_at_the_lower_end_of_the_narrow_rang
                     initial={"temperature": 1723.0, "temperature_gradient": [0.0, 0.0, 0.0]},
                     time={"end": 1.0, "output_interval": 1.0})
         assert case_writer.start_temperature(case, np.array([[5e-4, 0.0, 5e-4]])) == pytest.approx(1723.0 + end, abs=1e-9)
+
+
+@pytest.mark.parametrize("dimensions, exact", [(2, np.pi*0.1), (3, 4*np.pi/3)])
+def test_a_drop_of_five_cells_a_radius_has_its_volume_and_quiet_columns(dimensions, exact, tmp_path):
+    # fractions that are 0.001 of a cell off put the curvature of a drop of five cells a radius 0.5 % off, and shake it
+    spacing = 0.2
+    case = drop(tmp_path, dimensions, None, spacing)
+    grid = make_grid(case, top_of_bodies(case))
+    share = volume_fractions(case, grid)
+    volumes = grid.cell_volumes()/(1 if dimensions == 3 else spacing/0.1)         # the plane's one cell as thick as 0.1
+    assert (share*volumes).sum() == pytest.approx(exact, rel=2e-6)
+    points = (np.arange(20000) + 0.5)/20000*spacing                               # of the column from x = 0 on, upper half
+    column = share.reshape(grid.shape[2], grid.shape[1], grid.shape[0])[grid.shape[2]//2:, grid.shape[1]//2, grid.shape[0]//2].sum()*spacing
+    if dimensions == 2:
+        assert column == pytest.approx(np.sqrt(1 - points**2).mean(), rel=1e-5)

@@ -71,9 +71,9 @@ def test_the_listing_has_every_case_under_its_tier(cupel):
     done = cupel("cases")
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
-    assert [line for line in lines if line.startswith("Tier")] == ["Tier canonical", "Tier v0", "Tier v1"]
+    assert [line for line in lines if line.startswith("Tier")] == ["Tier canonical", "Tier v0", "Tier v1", "Tier long"]
     assert [line.strip() for line in lines if line.startswith("  ") and not line.startswith("   ")] == [
-        name for tier in ("canonical", "v0", "v1") for name in cases.case_names()
+        name for tier in ("canonical", "v0", "v1", "long") for name in cases.case_names()
         if cases.members(cases.find_case(name))[0].tier == tier]
     assert "      variations: dt100, dt300, dt1000, dt300_jitter" in lines
     only = cupel("cases", "--tier", "v1")
