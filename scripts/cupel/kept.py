@@ -102,14 +102,21 @@ def _store(place: ResultPlace, result: dict, folder: Path) -> None:
     try:
         shutil.rmtree(beside, ignore_errors=True)
         beside.mkdir(parents=True)
-        settings = result["settings"] | ({"case_file": _inside(result["settings"]["case_file"])} if "case_file" in result["settings"] else {})
-        write_json(beside / "result.json", check_result(result | {"settings": settings}, beside))
+        write_json(beside / "result.json", check_result(result | {"settings": _without_places(result["settings"])}, beside))
         if (place.folder / "series.csv").exists():
             shutil.copyfile(place.folder / "series.csv", beside / "series.csv")
         shutil.rmtree(folder, ignore_errors=True)
         beside.rename(folder)
     except OSError as error:
         raise describe_system_error(error, folder) from None
+
+
+def _without_places(settings: dict) -> dict:
+    """A resolved case whose files are named as the repository sees them: the case file, and tables of particles."""
+    named = {"case_file": _inside(settings["case_file"])} if "case_file" in settings else {}
+    if settings.get("bodies"):
+        named["bodies"] = [body | {"file": _inside(body["file"])} if body.get("file") else body for body in settings["bodies"]]
+    return settings | named
 
 
 def _inside(path: str) -> str:

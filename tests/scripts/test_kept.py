@@ -286,3 +286,12 @@ def test_a_case_is_the_same_to_a_solver_whatever_only_the_other_one_reads():
         assert not same_case(solver, case(), case(time_step_factor=0.5))
         assert not same_case(solver, case(), case(shifting=0.5) | {"spacing": 2.0})
         assert not same_case(solver, {"hash": "a"}, {"hash": "b"}) and same_case(solver, {"hash": "a"}, {"hash": "a"})
+
+
+def test_files_of_a_kept_case_are_named_as_the_repository_sees_them():
+    table = ROOT / "validation_cases" / "common" / "bed_seed1.csv"
+    settings = {"case_file": str(ROOT / "validation_cases" / "made" / "case.toml"), "bodies": [{"file": str(table)}, {"shape": "box"}]}
+    named = kept_module._without_places(settings)
+    assert named["case_file"] == "validation_cases/made/case.toml"
+    assert named["bodies"] == [{"file": "validation_cases/common/bed_seed1.csv"}, {"shape": "box"}]
+    assert kept_module._without_places({"hash": "h"}) == {"hash": "h"}
