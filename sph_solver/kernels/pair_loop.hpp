@@ -1,100 +1,22 @@
 #pragma once
 
-#include <atomic>
-#include <numeric>
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "kernels/field_lanes.hpp"
 #include "kernels/neighbour_list.hpp"
+#include "kernels/neighbour_records.hpp"
 #include "kernels/places.hpp"
-#include "kernels/quantities.hpp"
 #include "kernels/smoothing_kernel.hpp"
+#include "kernels/terms.hpp"
 #include "particles/particles.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
-
-/// What the loop knows of a pair (i, j), for a cluster of particles i at once.
-struct Pair
-{
-    VectorLanes offset;    ///< x_i − x_j, m
-    Lanes square;          ///< |x_i − x_j|², m²; never zero
-    Lanes kernel;          ///< W_ij
-    Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
-
-    // The same weighted with the neighbour's volume, once for all terms that ask for it.
-    Lanes volume_kernel;          ///< V_j W_ij
-    Lanes volume_gradient_over_r; ///< V_j (1/r) dW/dr
-    VectorLanes volume_gradient;  ///< V_j ∇_i W_ij
-
-    void weigh(const Real& volume)
-    {
-        volume_kernel = volume * kernel;
-        volume_gradient_over_r = volume * gradient_over_r;
-        volume_gradient = volume_gradient_over_r * offset;
-    }
-};
-
-/// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
-/// looks into the fields itself.
-template <class Term>
-concept HasFar = requires(const Term& term, Index j)
-{
-    term.far(j);
-};
-
-/// A term that takes nothing from some neighbours, most of them perhaps, says so of one: `bool ignores(Far) const`.
-template <class Term>
-concept Ignores = HasFar<Term> && requires(const Term& term, Index j)
-{
-    term.ignores(term.far(j));
-};
-
-template <class Term> bool ignores(const Term& term, [[maybe_unused]] const auto& far)
-{
-    if constexpr (Ignores<Term>)
-        return term.ignores(far);
-    else
-        return false;
-}
-
-template <class Term> auto far_of(const Term& term, Index j)
-{
-    if constexpr (HasFar<Term>)
-        return term.far(j);
-    else
-        return j;
-}
-
-/// What is kept of a particle for the length of a pass: all that the loop and the terms need of a neighbour, side by
-/// side in memory.
-template <class... Terms> struct Neighbour
-{
-    Place place;
-    Real volume;
-    Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...> far;
-};
-
-/// Makes it.
-template <class... Terms> struct RecordOf
-{
-    using Record = Neighbour<Terms...>;
-    using Far = decltype(Record::far);
-
-    const Particles& particles;
-    const Places& places;
-    const std::tuple<const Terms&...>& terms;
-
-    Far far(Index j) const
-    {
-        return std::apply([&](const Terms&... each) { return Far(far_of(each, j)...); }, terms);
-    }
-    Record operator()(Index j, const Far& far) const { return {places(j), real(particles.volume[j]), far}; }
-};
 
 /// visit(j, image, offset) for every particle that a cluster sees beyond a periodic or symmetry side. Few clusters see
 /// any, so that this way is plain, and offsets are taken in double.
@@ -117,12 +39,6 @@ void for_each_image(const NeighbourList& list, std::span<const ImageRun> runs, c
     }
 }
 
-/// Memory that passes share, one after another. Grows to the widest pass and stays.
-std::byte* pass_memory(std::size_t bytes);
-std::size_t pass_memory_bytes();
-/// Gives it back; the next pass takes what it needs.
-void release_pass_memory();
-
 /// The particles of a cluster and the kernel: makes a Pair of an offset to a neighbour.
 template <class Kernel> struct PairMaker
 {
@@ -142,155 +58,6 @@ template <class Kernel> struct PairMaker
         pair.weigh(volume);
         return pair;
     }
-};
-
-/// Terms, with what they know of a cluster of particles i.
-template <class... Terms> struct TermsOfCluster
-{
-    using Sums = std::tuple<typename Terms::Sum...>;
-    using Fars = Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
-
-    const std::tuple<const Terms&...>& terms;
-    Shared<typename Terms::Near...> near;
-
-    TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
-        : terms(all),
-          near(std::apply([&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(first)...); },
-                          all))
-    {}
-
-    template <std::size_t... t>
-    static bool all_ignore(const std::tuple<const Terms&...>& all, const Fars& far, std::index_sequence<t...>)
-    {
-        return (ignores(std::get<t>(all), far.template of<t>()) && ...);
-    }
-    /// Terms from the first to the one before the end.
-    template <std::size_t first = 0, std::size_t end = sizeof...(Terms)>
-    void add(const Fars& far, const Pair& pair, Sums& sums) const
-    {
-        add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
-    }
-    void store(const Cluster& cluster, const Sums& sums) const
-    {
-        store(cluster, sums, std::index_sequence_for<Terms...>{});
-    }
-
-private:
-    template <std::size_t first, std::size_t... k>
-    void add_from(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<k...>) const
-    {
-        (add_one<first + k>(far, pair, sums), ...);
-    }
-    template <std::size_t t> void add_one(const Fars& far, const Pair& pair, Sums& sums) const
-    {
-        if (!ignores(std::get<t>(terms), far.template of<t>()))
-            std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums));
-    }
-    template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
-    {
-        (std::get<t>(terms).store(cluster, near.template of<t>(), std::get<t>(sums)), ...);
-    }
-};
-
-/// Appends the particles that are listed, in order; up to 16 more places may be written to. Returns the new end.
-inline Index* append(Index* end, const Listed& some)
-{
-#if defined(__AVX512F__)
-    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    const __m512i all = _mm512_add_epi32(_mm512_set1_epi32(some.first), lane);
-    _mm512_storeu_si512(end, _mm512_maskz_compress_epi32(static_cast<__mmask16>(some.lanes), all));
-    return end + some.count();
-#else
-    for (int lane = 0; lane < lane_count; ++lane) {
-        *end = some.first + lane;
-        end += (some.lanes >> lane) & 1u;
-    }
-    return end;
-#endif
-}
-
-/// Which particles of a cluster a pass does not ignore, a bit for each: found where it is first asked, since a pass
-/// that looks up its neighbours is near few clusters, and each of those is near many others.
-class LanesOfInterest
-{
-public:
-    explicit LanesOfInterest(const NeighbourList& list)
-        : list_(list), lanes_(static_cast<std::size_t>(list.cluster_count()), unknown)
-    {}
-
-    template <class Ignored> std::uint32_t of(Index particle, const Ignored& ignored)
-    {
-        const Index c = list_.cluster_of(particle);
-        // Threads may find the same bits side by side.
-        const std::atomic_ref<std::uint32_t> kept(lanes_[static_cast<std::size_t>(c)]);
-        std::uint32_t lanes = kept.load(std::memory_order_relaxed);
-        if (lanes != unknown) return lanes;
-        const Cluster& cluster = list_.cluster(c);
-        lanes = 0;
-        for (Index k = 0; k < cluster.count; ++k)
-            lanes |= static_cast<std::uint32_t>(!ignored(cluster.first + k)) << k;
-        kept.store(lanes, std::memory_order_relaxed);
-        return lanes;
-    }
-
-private:
-    static constexpr std::uint32_t unknown = ~0u;
-    const NeighbourList& list_;
-    std::vector<std::uint32_t> lanes_;
-};
-
-/// The neighbours of one cluster that add to its sums: records, and which of them, in the order of the list.
-template <class Record> struct SomeRecords
-{
-    const Record* records;
-    std::span<const Index> which;
-};
-
-/// Makes them for cluster after cluster, in memory that each thread keeps.
-template <class Record> class NeighboursOfCluster
-{
-public:
-    /// From records of all particles.
-    template <class Ignored>
-    SomeRecords<Record> find(std::span<const Listed> near, const Record* records, const Ignored& ignored)
-    {
-        reserve(near);
-        Index* end = which_.data();
-        for (const Listed& some : near)
-            end = append(end, some);
-        if constexpr (!std::is_null_pointer_v<Ignored>) {
-            Index* kept = which_.data();
-            for (const Index* j = kept; j != end; ++j) {
-                *kept = *j;
-                kept += !ignored(records[*j].far);
-            }
-            end = kept;
-        }
-        return {records, {which_.data(), end}};
-    }
-    /// Looked up one by one, where a pass concerns too few for a record of each.
-    template <class RecordOf, class Wanted>
-    SomeRecords<Record> look_up(std::span<const Listed> near, const RecordOf& record_of, const Wanted& wanted)
-    {
-        copies_.resize(reserve(near) * sizeof(Record));
-        auto* records = reinterpret_cast<Record*>(copies_.data());
-        Index count = 0;
-        for (const Listed& some : near)
-            Listed{some.first, some.lanes & wanted(some.first)}.for_each(
-                [&](Index j) { new (records + count++) Record(record_of(j, record_of.far(j))); });
-        std::iota(which_.begin(), which_.begin() + count, Index{0});
-        return {records, {which_.data(), static_cast<std::size_t>(count)}};
-    }
-
-private:
-    std::size_t reserve(std::span<const Listed> near)
-    {
-        const auto count = static_cast<std::size_t>(neighbours_in(near));
-        if (which_.size() < count + 16) which_.resize(count + 16);
-        return count;
-    }
-    std::vector<Index> which_;
-    std::vector<std::byte> copies_;
 };
 
 /// visit(first, end) for groups of terms that follow each other, each of them with no more sums than there are

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "kernels/neighbour_list.hpp"
+#include "kernels/quantities.hpp"
+#include "particles/particles.hpp"
+
+/// Terms as the pair loop sees them: what they share of a pair, and several of them as one.
+namespace cupel::inline CUPEL_ENGINE
+{
+
+/// What the loop knows of a pair (i, j), for a cluster of particles i at once.
+struct Pair
+{
+    VectorLanes offset;    ///< x_i − x_j, m
+    Lanes square;          ///< |x_i − x_j|², m²; never zero
+    Lanes kernel;          ///< W_ij
+    Lanes gradient_over_r; ///< (1/r) dW/dr, so that ∇_i W_ij = gradient_over_r · offset
+
+    // The same weighted with the neighbour's volume, once for all terms that ask for it.
+    Lanes volume_kernel;          ///< V_j W_ij
+    Lanes volume_gradient_over_r; ///< V_j (1/r) dW/dr
+    VectorLanes volume_gradient;  ///< V_j ∇_i W_ij
+
+    void weigh(const Real& volume)
+    {
+        volume_kernel = volume * kernel;
+        volume_gradient_over_r = volume * gradient_over_r;
+        volume_gradient = volume_gradient_over_r * offset;
+    }
+};
+
+/// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
+/// looks into the fields itself.
+template <class Term>
+concept HasFar = requires(const Term& term, Index j)
+{
+    term.far(j);
+};
+
+/// A term that takes nothing from some neighbours, most of them perhaps, says so of one: `bool ignores(Far) const`.
+template <class Term>
+concept Ignores = HasFar<Term> && requires(const Term& term, Index j)
+{
+    term.ignores(term.far(j));
+};
+
+template <class Term> bool ignores(const Term& term, [[maybe_unused]] const auto& far)
+{
+    if constexpr (Ignores<Term>)
+        return term.ignores(far);
+    else
+        return false;
+}
+
+template <class Term> auto far_of(const Term& term, Index j)
+{
+    if constexpr (HasFar<Term>)
+        return term.far(j);
+    else
+        return j;
+}
+
+/// Terms, with what they know of a cluster of particles i.
+template <class... Terms> struct TermsOfCluster
+{
+    using Sums = std::tuple<typename Terms::Sum...>;
+    using Fars = Shared<decltype(far_of(std::declval<const Terms&>(), Index{}))...>;
+
+    const std::tuple<const Terms&...>& terms;
+    Shared<typename Terms::Near...> near;
+
+    TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
+        : terms(all),
+          near(std::apply([&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(first)...); },
+                          all))
+    {}
+
+    template <std::size_t... t>
+    static bool all_ignore(const std::tuple<const Terms&...>& all, const Fars& far, std::index_sequence<t...>)
+    {
+        return (ignores(std::get<t>(all), far.template of<t>()) && ...);
+    }
+    /// Terms from the first to the one before the end.
+    template <std::size_t first = 0, std::size_t end = sizeof...(Terms)>
+    void add(const Fars& far, const Pair& pair, Sums& sums) const
+    {
+        add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
+    }
+    void store(const Cluster& cluster, const Sums& sums) const
+    {
+        store(cluster, sums, std::index_sequence_for<Terms...>{});
+    }
+
+private:
+    template <std::size_t first, std::size_t... k>
+    void add_from(const Fars& far, const Pair& pair, Sums& sums, std::index_sequence<k...>) const
+    {
+        (add_one<first + k>(far, pair, sums), ...);
+    }
+    template <std::size_t t> void add_one(const Fars& far, const Pair& pair, Sums& sums) const
+    {
+        if (!ignores(std::get<t>(terms), far.template of<t>()))
+            std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums));
+    }
+    template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
+    {
+        (std::get<t>(terms).store(cluster, near.template of<t>(), std::get<t>(sums)), ...);
+    }
+};
+
+} // namespace cupel::inline CUPEL_ENGINE
