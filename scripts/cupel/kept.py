@@ -28,6 +28,8 @@ DEPENDS_ON = {
 }
 # What the reference reads of `numerics`; all else there is SPH's, and none of what the reference has is.
 READ_BY_REFERENCE = ("time_step_factor", "openfoam")
+# What changes nothing but the order of sums: how long lists of neighbours hold.
+OF_NO_EFFECT = ("skin",)
 MEASURED_BY = ("scripts/cupel/measures", "scripts/cupel/exact")
 NOT_CODE = (":(exclude)*.md",)
 
@@ -67,7 +69,7 @@ def _as_read_by(solver: str, settings: dict) -> dict:
     rest = {key: value for key, value in settings.items() if key not in ("hash", "case_file", "numerics")}
     rest["bodies"] = [{key: value for key, value in body.items() if key != "file"} for body in settings.get("bodies") or []]
     numerics = settings.get("numerics") or {}
-    read = [key for key in numerics if (key in READ_BY_REFERENCE if solver == "openfoam" else key != "openfoam")]
+    read = [key for key in numerics if (key in READ_BY_REFERENCE if solver == "openfoam" else key not in ("openfoam", *OF_NO_EFFECT))]
     # A result without a resolved case beside its hash is known by that alone.
     known = {} if "numerics" in settings else {"hash": settings.get("hash")}
     return rest | known | {"numerics": {key: numerics[key] for key in read}}

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "kernels/neighbour_list.hpp"
+#include "math/lanes.hpp"
+#include "particles/particles.hpp"
 
 /// What a neighbour list is made with: a whole cluster of candidates against a limit at once.
 namespace cupel::inline CUPEL_ENGINE
@@ -8,6 +9,19 @@ namespace cupel::inline CUPEL_ENGINE
 
 /// A cluster's coordinates in float, in either precision: lists have a margin for what that leaves out.
 using Narrow = float __attribute__((vector_size(4 * lane_count)));
+
+/// What fills a register of 64 bytes: in double a cluster of candidates twice, in float once, so that it meets as many
+/// particles at a time.
+using Filled = float __attribute__((vector_size(64)));
+constexpr int particles_at_a_time = 16 / lane_count;
+
+inline Filled filled(const Narrow& a)
+{
+    Filled all;
+    for (int lane = 0; lane < 16; ++lane)
+        all[lane] = a[lane % lane_count];
+    return all;
+}
 
 inline Narrow narrow(const Array& coordinate, Index first, double middle)
 {
@@ -17,40 +31,45 @@ inline Narrow narrow(const Array& coordinate, Index first, double middle)
         lanes[lane] = static_cast<float>(values[lane] - middle);
     return lanes;
 }
-#if defined(__AVX512F__) && CUPEL_REAL_IS_FLOAT
+#if defined(__AVX512F__)
 // By name, where the compiler, minding what is no number, would take several instructions for one.
-inline Narrow lesser(const Narrow& a, const Narrow& b)
+inline Filled lesser(const Filled& a, const Filled& b)
 {
-    return reinterpret_cast<Narrow>(
+    return reinterpret_cast<Filled>(
         _mm512_maskz_min_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
 }
-inline unsigned lanes_below(const Narrow& a, float limit)
+inline Filled greater(const Filled& a, const Filled& b)
+{
+    return reinterpret_cast<Filled>(
+        _mm512_maskz_max_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+inline unsigned lanes_below(const Filled& a, float limit)
 {
     return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), _mm512_set1_ps(limit), _CMP_LT_OQ);
 }
-#elif defined(__AVX__) && !CUPEL_REAL_IS_FLOAT
-inline Narrow lesser(const Narrow& a, const Narrow& b)
-{
-    return reinterpret_cast<Narrow>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
-}
-inline unsigned lanes_below(const Narrow& a, float limit)
-{
-    return static_cast<unsigned>(
-        _mm256_movemask_ps(_mm256_cmp_ps(reinterpret_cast<__m256>(a), _mm256_set1_ps(limit), _CMP_LT_OQ)));
-}
 #else
-inline Narrow lesser(const Narrow& a, const Narrow& b)
+inline Filled lesser(const Filled& a, const Filled& b)
 {
     return a < b ? a : b;
 }
+inline Filled greater(const Filled& a, const Filled& b)
+{
+    return a > b ? a : b;
+}
 /// One bit for each lane below a limit, the first lowest.
-inline unsigned lanes_below(const Narrow& a, float limit)
+inline unsigned lanes_below(const Filled& a, float limit)
 {
     unsigned bits = 0;
-    for (int lane = 0; lane < lane_count; ++lane)
+    for (int lane = 0; lane < 16; ++lane)
         bits |= static_cast<unsigned>(a[lane] < limit) << lane;
     return bits;
 }
 #endif
+/// The same of a cluster of candidates, wherever in the register it is below.
+inline unsigned candidates_below(const Filled& a, float limit)
+{
+    const unsigned bits = lanes_below(a, limit);
+    return particles_at_a_time == 1 ? bits : (bits | bits >> lane_count) & ((1u << lane_count) - 1u);
+}
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -59,9 +59,15 @@ void NeighbourList::build(Particles& particles)
             particles.position.set(i, images_.wrapped(particles.position[i]));
     sort_into_columns(particles);
     find_neighbours(particles);
-    built_x_ = particles.position.x;
-    built_y_ = particles.position.y;
-    built_z_ = particles.position.z;
+    const std::size_t places = particles.position.x.size();
+    for (Array* built : {&built_x_, &built_y_, &built_z_})
+        built->resize(places);
+#pragma omp parallel for schedule(static) if (places > 8192)
+    for (std::size_t k = 0; k < places; ++k) {
+        built_x_[k] = particles.position.x[k];
+        built_y_[k] = particles.position.y[k];
+        built_z_[k] = particles.position.z[k];
+    }
     ++builds_;
 }
 
@@ -155,6 +161,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
     const Index count = cluster_count();
     boxes_.resize(clusters_.size());
     ranges_.resize(clusters_.size());
+    boxes_in_columns_.resize(clusters_.size());
     const Index chunk_count = (count + clusters_per_chunk - 1) / clusters_per_chunk;
     chunks_.resize(static_cast<std::size_t>(chunk_count));
     if (images_.any()) image_runs_.assign(clusters_.size(), {});
@@ -162,8 +169,10 @@ void NeighbourList::find_neighbours(const Particles& particles)
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-        for (Index c = 0; c < count; ++c)
-            boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
+        for (Index c = 0; c < count; ++c) {
+            const Box& box = boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
+            boxes_in_columns_.set(c, box.lower - origin_, box.upper - origin_);
+        }
 #pragma omp for schedule(dynamic)
         for (Index chunk = 0; chunk < chunk_count; ++chunk) {
             auto& found = chunks_[static_cast<std::size_t>(chunk)];
@@ -188,6 +197,7 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
 {
     const double reach = support_ + skin_;
     const double reach_squared = reach * reach * (1.0 + 1e-12);
+    const Vector lower = box.lower - origin_, upper = box.upper - origin_;
     const Index x0 = column_x(box.lower.x - reach), x1 = column_x(box.upper.x + reach);
     const Index y0 = column_y(box.lower.y - reach), y1 = column_y(box.upper.y + reach);
     const auto near = [&](const Box& other) {
@@ -202,18 +212,20 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
                 static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
             const Index end = first_cluster_of_column_[column + 1];
             Index d = first_cluster_of_column_[column];
-            if (loose_.empty())
+            if (loose_.empty() && end - d > 64)
                 // A column's clusters are in order of height until some have moved.
                 d = static_cast<Index>(
                     std::partition_point(boxes_.begin() + d, boxes_.begin() + end,
                                          [&](const Box& other) { return other.upper.z < box.lower.z - reach; }) -
                     boxes_.begin());
-            for (; d < end; ++d) {
-                if (is_loose_[static_cast<std::size_t>(d)]) continue;
-                const Box& other = boxes_[static_cast<std::size_t>(d)];
-                if (other.upper.z < box.lower.z - reach) continue;
-                if (other.lower.z > box.upper.z + reach) break;
-                if (near(other)) visit(d);
+            for (; d < end; d += 16) {
+                unsigned found =
+                    boxes_in_columns_.near(d, end, lower, upper, static_cast<float>(reach_squared * 1.00001));
+                for (; found != 0; found &= found - 1)
+                    visit(d + std::countr_zero(found));
+                if (boxes_[static_cast<std::size_t>(d)].lower.z > box.upper.z + reach &&
+                    !is_loose_[static_cast<std::size_t>(d)])
+                    break;
             }
             for (Index k = first_loose_of_column_[column]; k < first_loose_of_column_[column + 1]; ++k) {
                 const Index d = loose_of_column_[static_cast<std::size_t>(k)];
@@ -238,19 +250,30 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
     // Rounded to float, a distance may seem longer than it is by a few 10⁻⁷ of the offsets that it is made of.
     const auto reach_squared = static_cast<float>(reach * reach * (1.0 + 1e-5));
 
-    const Narrow x = narrow(position.x, cluster.first, middle.x), y = narrow(position.y, cluster.first, middle.y),
-                 z = narrow(position.z, cluster.first, middle.z);
+    // Each register holds one particle of this cluster, or two of them in double; what is missing is its last once
+    // more.
+    constexpr int registers = lane_count / particles_at_a_time;
+    Filled x[registers], y[registers], z[registers];
+    for (int lane = 0; lane < lane_count; ++lane) {
+        const Vector p = position[cluster.first + std::min<Index>(lane, cluster.count - 1)] - middle;
+        for (int candidate = 0; candidate < lane_count; ++candidate) {
+            const int place = (lane % particles_at_a_time) * lane_count + candidate;
+            x[lane / particles_at_a_time][place] = static_cast<float>(p.x);
+            y[lane / particles_at_a_time][place] = static_cast<float>(p.y);
+            z[lane / particles_at_a_time][place] = static_cast<float>(p.z);
+        }
+    }
     for_each_cluster_near(box, [&](Index d) {
         const Cluster& near = clusters_[static_cast<std::size_t>(d)];
-        const Narrow near_x = narrow(position.x, near.first, middle.x),
-                     near_y = narrow(position.y, near.first, middle.y),
-                     near_z = narrow(position.z, near.first, middle.z);
-        Narrow nearest = reach_squared - Narrow{};
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Narrow dx = near_x - x[lane], dy = near_y - y[lane], dz = near_z - z[lane];
+        const Filled near_x = filled(narrow(position.x, near.first, middle.x)),
+                     near_y = filled(narrow(position.y, near.first, middle.y)),
+                     near_z = filled(narrow(position.z, near.first, middle.z));
+        Filled nearest = reach_squared - Filled{};
+        for (int k = 0; k < registers; ++k) {
+            const Filled dx = near_x - x[k], dy = near_y - y[k], dz = near_z - z[k];
             nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);
         }
-        const std::uint32_t reached = lanes_below(nearest, reach_squared) & ((1u << near.count) - 1u);
+        const std::uint32_t reached = candidates_below(nearest, reach_squared) & ((1u << near.count) - 1u);
         if (reached != 0) found.push_back({near.first, reached});
     });
 }
@@ -365,6 +388,7 @@ bool NeighbourList::refresh(const Particles& particles, std::span<const Index> m
         upper_ = most(upper_, box.upper);
         if (!is_loose_[static_cast<std::size_t>(c)]) loose_.push_back(c);
         is_loose_[static_cast<std::size_t>(c)] = 1;
+        boxes_in_columns_.put_out_of_reach(c);
     }
     std::sort(loose_.begin(), loose_.end());
     spread_loose_over_columns();
@@ -412,7 +436,7 @@ std::size_t NeighbourList::bytes() const
             total += list.capacity() * sizeof(Listed);
     for (const auto& list : image_runs_)
         total += sizeof(list) + list.capacity() * sizeof(ImageRun);
-    return total + 3 * built_x_.size() * sizeof(double);
+    return total + boxes_in_columns_.bytes() + 3 * built_x_.size() * sizeof(double);
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/cluster_boxes.hpp"
 #include "kernels/images.hpp"
 #include "math/lanes.hpp"
 #include "particles/particles.hpp"
@@ -148,6 +149,7 @@ private:
     std::vector<Index> first_cluster_of_column_, cluster_of_;
     std::vector<Cluster> clusters_;
     std::vector<Box> boxes_;
+    ClusterBoxes boxes_in_columns_; ///< from origin_, without those of loose clusters
     std::vector<Range> ranges_;
     std::vector<std::vector<Listed>> chunks_;
     Array built_x_, built_y_, built_z_;

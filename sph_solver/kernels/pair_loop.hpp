@@ -46,7 +46,10 @@ template <class Kernel> struct PairMaker
     double tiny;     ///< added to squares, so that none is zero, m²
     double farthest; ///< square beyond which the kernel is zero, m²
 
-    Lanes square(const VectorLanes& offset) const { return dot(offset, offset) + tiny; }
+    Lanes square(const VectorLanes& offset) const
+    {
+        return offset.x * offset.x + (offset.y * offset.y + (offset.z * offset.z + tiny));
+    }
     Pair operator()(const VectorLanes& offset, const Real& volume) const
     {
         Pair pair;
@@ -77,12 +80,13 @@ template <std::size_t first, class... Terms, class Visit> void for_each_group(co
 }
 
 /// The sums over some neighbours. All that it calls is compiled into it, so that sums stay in registers while
-/// neighbours pass by. Kernels come first, for a few neighbours together, then the terms: what a kernel takes longest
-/// for (a root, powers) would otherwise hold up the sums, and a neighbour that turns out to be beyond the support of
-/// all particles of the cluster costs no more than its distance.
+/// neighbours pass by. Distances come first, for a few neighbours together, then kernels, then the terms: each loop is
+/// short enough for a processor to have several neighbours under way, what a kernel takes longest for (a root, powers)
+/// holds up no sum, and a neighbour that turns out to be beyond the support of all particles of the cluster costs no
+/// more than its distance. The terms take offsets anew: to keep them would be three writes more for each neighbour.
 template <class Kernel, class... Terms>
 [[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
-sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& here, const PairMaker<Kernel>& pair_at,
+sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& at, const PairMaker<Kernel>& pair_at,
          const TermsOfCluster<Terms...>& terms)
 {
     // Not what is returned itself, which would be kept in memory.
@@ -90,31 +94,34 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& h
     const auto* const records = neighbours.records;
     const Index* next = neighbours.which.data();
     const Index* const end = next + neighbours.which.size();
-    // An array for each number of a pair: those that no term asks for are left out. Bare registers, which nothing sets.
+    const Kernel kernel_of = pair_at.kernel; // copies: nothing that is written below can be thought to change them
+    const PlaceLanes here = at;
+    // An array for each number of a pair: one that no term asks for is left out. Bare registers, which nothing sets.
     constexpr int most = 32;
+    // As far as a record from the next cache but one is away; which[] has places beyond its end.
+    constexpr int neighbours_ahead = 16;
     using Register = Lanes::Register;
-    Register x[most], y[most], z[most], square[most], kernel[most], gradient_over_r[most];
+    Register square[most], kernel[most], gradient_over_r[most];
     Index neighbour[most];
     while (next < end) {
         int count = 0;
         for (const Index* const last = std::min(next + most, end); next < last; ++next) {
-            const VectorLanes offset = offset_between(here, records[*next].place);
-            const Lanes r2 = pair_at.square(offset);
-            const auto w = pair_at.kernel.of_square(r2);
+            __builtin_prefetch(records + next[neighbours_ahead]);
+            const Lanes r2 = pair_at.square(offset_between(here, records[*next].place));
             neighbour[count] = *next;
-            x[count] = offset.x.values();
-            y[count] = offset.y.values();
-            z[count] = offset.z.values();
             square[count] = r2.values();
-            kernel[count] = w.value.values();
-            gradient_over_r[count] = w.gradient_over_r.values();
             count += may_be_below(r2, pair_at.farthest);
+        }
+        for (int k = 0; k < count; ++k) {
+            const auto w = kernel_of.of_square(Lanes(square[k]));
+            kernel[k] = w.value.values();
+            gradient_over_r[k] = w.gradient_over_r.values();
         }
         for_each_group<0, Terms...>([&](auto first_term, auto end_term) {
             for (int k = 0; k < count; ++k) {
                 const auto& other = records[neighbour[k]];
                 Pair pair;
-                pair.offset = {Lanes(x[k]), Lanes(y[k]), Lanes(z[k])};
+                pair.offset = offset_between(here, other.place);
                 pair.square = Lanes(square[k]);
                 pair.kernel = Lanes(kernel[k]);
                 pair.gradient_over_r = Lanes(gradient_over_r[k]);

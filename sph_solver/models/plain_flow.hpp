@@ -36,8 +36,8 @@ struct PlainFlow
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const VectorLanes difference = i.velocity - broadcast(j.velocity);
-        sum.divergence += dot(difference, pair.volume_gradient);
-        sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
+        sum.divergence += pair.volume_gradient_over_r * dot(difference, pair.offset);
+        sum.push -= ((i.pressure + j.pressure) * pair.volume_gradient_over_r) * pair.offset;
         sum.drag += pair.volume_gradient_over_r * difference;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const

@@ -55,7 +55,7 @@ struct ContinuityOfSound
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const VectorLanes change = i.velocity - broadcast(j.velocity);
-        sum.divergence += dot(change, pair.volume_gradient);
+        sum.divergence += pair.volume_gradient_over_r * dot(change, pair.offset);
         if (i.in_band) sum.corrected += dot(change, i.correction * pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
@@ -107,7 +107,7 @@ template <bool with_walls> struct PressureForce
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
+        sum.push -= ((i.pressure + j.pressure) * pair.volume_gradient_over_r) * pair.offset;
         if constexpr (with_walls)
             if (j.liquid == 0)
                 sum.wall_power -=

@@ -38,6 +38,7 @@ void permute_array(Array& values, Array& scratch, std::span<const Index> order)
 template <class T> void permute_vector(std::vector<T>& values, std::span<const Index> order)
 {
     std::vector<T> sorted(values.size());
+#pragma omp parallel for schedule(static) if (order.size() > 8192)
     for (std::size_t k = 0; k < order.size(); ++k)
         sorted[k] = values[static_cast<std::size_t>(order[k])];
     values.swap(sorted);
@@ -117,6 +118,7 @@ void Particles::permute(std::span<const Index> order)
 void Particles::rebuild_places()
 {
     place_of_identity_.resize(identity.size());
+#pragma omp parallel for schedule(static) if (identity.size() > 8192)
     for (std::size_t k = 0; k < identity.size(); ++k)
         place_of_identity_[static_cast<std::size_t>(identity[k])] = static_cast<Index>(k);
 }

@@ -104,7 +104,7 @@ Table numerics_declaration()
          quantity("skin", "1", "extra radius of the neighbour lists over particle spacing")
              .at_least(0)
              .at_most(2)
-             .or_else(0.3),
+             .or_else(0.15),
          quantity("position_jitter", "1",
                   "greatest random displacement of a particle at the start, along each axis, over spacing")
              .at_least(0)

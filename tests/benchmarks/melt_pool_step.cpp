@@ -50,7 +50,7 @@ Case molten_block(std::size_t particles, const MeltPoolScene& scene)
     definition.numerics.shifting = scene.shifting;
     definition.numerics.artificial_viscosity = scene.artificial_viscosity;
     definition.numerics.artificial_stress = scene.artificial_stress;
-    definition.numerics.skin = 0.3;
+    definition.numerics.skin = 0.15;
     definition.numerics.acoustic_substeps = scene.acoustic_substeps;
     definition.numerics.reference_speed = 11.6; // of recoil at the boiling point, as in the tracks
     definition.time = {1.0, 1.0};

@@ -15,7 +15,7 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-constexpr double sound_speed = 10.0, greatest_speed = 1.0, smoothing_length = 1.3, viscosity = 0.05, skin = 0.4;
+constexpr double sound_speed = 10.0, greatest_speed = 1.0, smoothing_length = 1.3, viscosity = 0.05, skin = 0.3;
 /// The acoustic limit.
 constexpr double time_step = 0.25 * smoothing_length / (sound_speed + greatest_speed);
 

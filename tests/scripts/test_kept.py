@@ -281,6 +281,7 @@ def test_a_case_is_the_same_to_a_solver_whatever_only_the_other_one_reads():
     assert same_case("openfoam", case(), case(shifting=0.5)) and not same_case("sph", case(), case(shifting=0.5))
     assert same_case("openfoam", case(), case(new_key=1)) and not same_case("sph", case(), case(new_key=1))
     static = {"mesh": "static"}
+    assert same_case("sph", case(skin=0.3), case(skin=0.15)) and same_case("sph", case(), case(skin=0.15))  # the order of sums only
     assert same_case("sph", case(), case(openfoam=static)) and not same_case("openfoam", case(), case(openfoam=static))
     for solver in ("sph", "openfoam"):
         assert not same_case(solver, case(), case(time_step_factor=0.5))

@@ -188,6 +188,20 @@ int refreshes_along(const Vector& middle, std::initializer_list<Vector> steps)
     return refreshed;
 }
 
+TEST(NeighbourList, IsCompleteInColumnsOfAnyHeight)
+{
+    // Clusters are looked at sixteen at a time: less than that in a column, and so many that they are first searched.
+    for (const double height : {20.0, 700.0}) {
+        Particles particles = jittered_lattice(14, 3, 0.3);
+        for (Index i = 0; i < particles.count(); ++i)
+            particles.position.set(i, {particles.position[i].x * 4.0 / 14.0, particles.position[i].y * 4.0 / 14.0,
+                                       particles.position[i].z * height / 14.0});
+        NeighbourList list(support, 0.3, 1.0, 3);
+        list.build(particles);
+        expect_complete(list, particles, 0.3);
+    }
+}
+
 TEST(NeighbourList, RefreshFindsWhatComesNear)
 {
     EXPECT_EQ(refreshes_along({8, 8, 8}, {{0.5, 0.3, 0.1}, {0.8, -0.5, 0}, {-0.5, -1, 0.5}, {0, 0, -2}}), 4);
