@@ -18,6 +18,8 @@ LEDGER_LIMITS = (
      "stored energy against what came in and went out"),
     ("mechanical_energy", "closure", "mechanical_energy_closure", {"sph": 1e-3},
      "kinetic and elastic energy against the work of every force, remedy and limiter"),
+    ("momentum", "closure", "momentum_closure", {"sph": 1e-9},
+     "momentum of a scene that nothing outside acts on, against the greatest Σ m |v|"),
     ("energy", "absorbed_error", "laser_absorbed_error", {"sph": 1e-3, "openfoam": 1e-3},
      "absorbed power against A·P of what the beam hits"),
 )

@@ -53,6 +53,25 @@ void Neighbourhood::forget_wanderers()
     has_wandered_.assign(all_.size(), 0);
 }
 
+bool Neighbourhood::meets_what_stands(const Particles& particles, const ScalarField& mobility) const
+{
+    if (standing_.empty()) return false;
+    const double reach = list_.support() * list_.support();
+    for (const Index c : moving_) {
+        const Cluster& cluster = list_.cluster(c);
+        bool meets = false;
+        list_.for_each_listed(c, [&](Index j) {
+            if (mobility[j] != 0.0) return;
+            for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
+                const Vector offset = particles.position[i] - particles.position[j];
+                meets = meets || (mobility[i] != 0.0 && dot(offset, offset) < reach);
+            }
+        });
+        if (meets) return true;
+    }
+    return false;
+}
+
 void Neighbourhood::classify(const Particles& particles, const ScalarField& mobility)
 {
     moving_particles_.clear();

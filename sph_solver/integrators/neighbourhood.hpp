@@ -30,6 +30,9 @@ public:
     const std::vector<Index>& all() const { return all_; }
     const std::vector<Index>& moving() const { return moving_; }
     const std::vector<Index>& standing() const { return standing_; }
+    /// Whether something that stands is within the kernel's support of a particle that moves. Clusters may hold both,
+    /// so that standing() need not be empty where nothing is met.
+    bool meets_what_stands(const Particles& particles, const ScalarField& mobility) const;
     /// Places of the particles that move, in order.
     const std::vector<Index>& moving_particles() const { return moving_particles_; }
 

@@ -46,6 +46,7 @@ Recorder::Recorder(Simulation& simulation, const RecorderOptions& options)
                                                                       simulation.scene().definition.resolved.dump()}
 {
     guards_.emplace(simulation_.particles(), guard_limits());
+    if (simulation_.flow() && MomentumBooks::can_tell(simulation_.scene().definition)) momentum_.emplace();
     checkpoints_.emplace(folder_.checkpoints(), provenance_,
                          std::chrono::duration<double>(options_.seconds_between_checkpoints));
     const auto checkpoint = options_.resume ? newest_checkpoint(folder_.checkpoints()) : std::nullopt;
@@ -66,6 +67,7 @@ void Recorder::begin()
     const double mass = total_mass(), volume = primary_volume();
     mass_ = {mass, mass, 0.0, 0.0, mass};
     volume_ = {volume, volume, 0.0, 0.0, volume};
+    if (momentum_) momentum_->begin(simulation_.particles());
     add_history_row();
     write_snapshot_now();
     // The first checkpoint waits until it is due: whatever is met before that, a run's start can be made again.
@@ -81,6 +83,7 @@ RunState Recorder::load(const std::filesystem::path& file)
     settle();
     mass_ = load_ledger("mass", numbers);
     volume_ = load_ledger("volume", numbers);
+    if (momentum_) momentum_->load(numbers);
     greatest_volume_error_ = numbers.at("recorder.greatest_volume_error");
     next_output_ = static_cast<std::uint64_t>(numbers.at("recorder.next_output"));
     return std::move(loaded.state);
@@ -182,6 +185,7 @@ RunState Recorder::state_of(const Simulation& simulation) const
     simulation.save(state.numbers);
     save_ledger("mass", mass_, state.numbers);
     save_ledger("volume", volume_, state.numbers);
+    if (momentum_) momentum_->save(state.numbers);
     state.numbers["recorder.greatest_volume_error"] = greatest_volume_error_;
     state.numbers["recorder.next_output"] = static_cast<double>(next_output_);
     state.numbers["recorder.wall_s"] = cost_->wall_seconds();
@@ -212,6 +216,7 @@ std::filesystem::path Recorder::write_start()
     start.settle();
     mass_.end = mass_.start;
     volume_.end = volume_.start;
+    if (momentum_) momentum_->begin(start.particles());
     greatest_volume_error_ = 0.0;
     next_output_ = 1;
     return checkpoints_->write(start.particles(), state_of(start));
@@ -251,7 +256,11 @@ void Recorder::update_books()
     if (!simulation_.flow()) return;
     mass_.end = total_mass();
     volume_.end = primary_volume();
-    greatest_volume_error_ = std::max(greatest_volume_error_, std::abs(volume_.end - volume_.start) / volume_.start);
+    if (momentum_) {
+        const Particles& particles = simulation_.particles();
+        momentum_->update(particles,
+                          simulation_.neighbourhood().meets_what_stands(particles, particles.scalar("mobility")));
+    }
 }
 
 void Recorder::add_history_row()
@@ -320,6 +329,7 @@ Ending Recorder::finish()
     record.diagnosis = diagnosis_;
     record.ledgers["mass"] = mass_;
     record.ledgers["volume"] = volume_;
+    if (const auto momentum = momentum_ ? momentum_->ledger() : std::nullopt) record.ledgers["momentum"] = *momentum;
     record.ledger_details["volume"]["greatest_error"] = greatest_volume_error_;
     if (simulation_.flow()) {
         record.ledgers["mechanical_energy"] = simulation_.mechanical_ledger();

@@ -8,6 +8,7 @@
 
 #include "integrators/simulation.hpp"
 #include "ledgers/guards.hpp"
+#include "ledgers/momentum_books.hpp"
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/progress.hpp"
@@ -78,6 +79,7 @@ private:
     std::optional<CostMeter> cost_;
     std::optional<Guards> guards_;
     Ledger mass_, volume_;
+    std::optional<MomentumBooks> momentum_; ///< where nothing outside acts on the scene
     double greatest_volume_error_ = 0.0;
     double output_seconds_ = 0.0, guard_seconds_ = 0.0; ///< of wall time
     std::uint64_t next_output_ = 1;
