@@ -87,7 +87,8 @@ def _patch_values(raw: bytes, path: Path, patch: str, count: int) -> np.ndarray:
     return np.frombuffer(raw, dtype="<f8", count=count, offset=found.end())
 
 
-def write_fluxes(path: Path, grid: Grid, patches: dict[str, str], fluxes: Fluxes, whole: Grid) -> None:
+def write_fluxes(path: Path, grid: Grid, patches: dict[str, str], fluxes: Fluxes, whole: Grid,
+                 dimensions: str = "[0 3 -1 0 0 0 0]") -> None:
     """Write the part of `fluxes` (on the `whole` grid) that `grid` has; patches: side to OpenFOAM's patch type."""
     own = fluxes
     if isinstance(grid, Block):
@@ -105,5 +106,5 @@ def write_fluxes(path: Path, grid: Grid, patches: dict[str, str], fluxes: Fluxes
         kind = {"wall": "calculated", "patch": "calculated"}.get(patches.get(patch, "processor"), patches.get(patch, "processor"))
         text += f"    {patch} {{ type {kind}; value {values}; }}\n"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(header("surfaceScalarField", path.name) + f"dimensions [0 3 -1 0 0 0 0];\n\ninternalField {scalar_list(internal)};\n\n"
+    path.write_text(header("surfaceScalarField", path.name) + f"dimensions {dimensions};\n\ninternalField {scalar_list(internal)};\n\n"
                     f"boundaryField\n{{\n{text}}}\n")

@@ -5,7 +5,7 @@
                  that mean is no longer the pattern's
     enthalpy     ∫ H dV, H = α ρ₁ h₁ + (1 − α) ρ₂ c₂ T with h₁, T of the old cell; the solver inverts H on its first step
     momentum     ∫ ρ u dV
-    flux         through every face of an old cell; inside one it runs linearly from face to face, so the new cells' divergence is
+    flux         and its acceleration through every face of an old cell; inside one it runs linearly from face to face, so the new cells' divergence is
                  that of the old ones
 
 The greatest temperature that was reached is averaged over the primary material, the pressure over the volume.
@@ -136,7 +136,8 @@ def remap(case: ResolvedCase, base: Grid, pattern: np.ndarray, written: CaseFold
         shaped[name] = values.reshape(old.shape[::-1] + values.shape[1:])
     cells = remap_cells(Overlap(base, old, new), shaped, pattern.reshape(base.shape[::-1]),
                         (case.primary["density"], case.surrounding["density"]), case.surrounding["specific_heat"])
-    fluxes = remap_fluxes(old, new, read_fluxes(written, time, "phi"))
+    fluxes = {name: remap_fluxes(old, new, read_fluxes(written, time, name)) for name in ("phi", "acceleration")
+              if (written.parts()[0][0]/time/name).is_file()}
     boundaries = case_writer.boundary_sections(case, target.path/"boundary_sections")
     boundaries["peak_temperature"] = boundaries["T"]
     boundaries["volumetric_enthalpy"] = case_writer.calculated_boundaries(case)
@@ -148,10 +149,12 @@ def remap(case: ResolvedCase, base: Grid, pattern: np.ndarray, written: CaseFold
             vector = own.ndim == 2
             write_field_with(folder/name, "volVectorField" if vector else "volScalarField", DIMENSIONS[name],
                              (vector_list if vector else scalar_list)(own), boundaries[name])
-        write_fluxes(folder/"phi", block, case_writer.patch_types(case), fluxes, new)
+        for name, values in fluxes.items():
+            write_fluxes(folder/name, block, case_writer.patch_types(case), values, new, DIMENSIONS[name])
         shutil.copytree(first/time/"uniform", folder/"uniform")
         mark_complete(folder)
 
 
 DIMENSIONS = {"fraction": "[0 0 0 0 0 0 0]", "T": "[0 0 0 1 0 0 0]", "peak_temperature": "[0 0 0 1 0 0 0]", "U": "[0 1 -1 0 0 0 0]",
-              "p_rgh": "[1 -1 -2 0 0 0 0]", "volumetric_enthalpy": "[1 -1 -2 0 0 0 0]"}
+              "p_rgh": "[1 -1 -2 0 0 0 0]", "volumetric_enthalpy": "[1 -1 -2 0 0 0 0]",
+              "phi": "[0 3 -1 0 0 0 0]", "acceleration": "[0 3 -2 0 0 0 0]"}

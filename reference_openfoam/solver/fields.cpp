@@ -64,6 +64,11 @@ FlowFields::FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarFi
       periodic_gravity(Zero), reference_cell(0), reference_pressure(0)
 {
     exchanged(reduced_pressure);
+    if (scene.physics.surface_tension) {
+        acceleration.reset(new surfaceScalarField(stored(mesh, "acceleration", IOobject::READ_IF_PRESENT), mesh,
+                                                  dimensionedScalar(dimVolume / sqr(dimTime), Zero)));
+        acceleration->setOriented();
+    }
     density.oldTime();
     if (scene.physics.gravity) {
         const uniformDimensionedVectorField g(

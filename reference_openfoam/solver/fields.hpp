@@ -11,13 +11,14 @@ struct FlowFields
 {
     FlowFields(const fvMesh& mesh, const Scene& scene, const volScalarField& fraction);
 
-    volVectorField velocity;          ///< U [m/s]
-    volScalarField reduced_pressure;  ///< p_rgh = p − ρ g·x [Pa]
-    surfaceScalarField flux;          ///< volume through each face [m³/s]
-    surfaceScalarField fraction_flux; ///< the primary material's share of it [m³/s], as it was moved
-    volScalarField density;           ///< ρ [kg/m³]
-    surfaceScalarField mass_flux;     ///< [kg/s]
-    volScalarField gravity_potential; ///< g·x [m²/s²], g without its part along periodic axes
+    volVectorField velocity;                  ///< U [m/s]
+    volScalarField reduced_pressure;          ///< p_rgh = p − ρ g·x [Pa]
+    surfaceScalarField flux;                  ///< volume through each face [m³/s]
+    surfaceScalarField fraction_flux;         ///< the primary material's share of it [m³/s], as it was moved
+    volScalarField density;                   ///< ρ [kg/m³]
+    surfaceScalarField mass_flux;             ///< [kg/s]
+    autoPtr<surfaceScalarField> acceleration; ///< of the flux in the last step [m³/s²]; only with surface_tension
+    volScalarField gravity_potential;         ///< g·x [m²/s²], g without its part along periodic axes
     surfaceScalarField gravity_potential_faces;
     vector periodic_gravity; ///< that part [m/s²]: a body force, for g·x is not periodic
     label reference_cell;    ///< where the pressure is pinned if no boundary sets it

@@ -80,6 +80,7 @@ int run_scene(Time& clock, const fvMesh& mesh)
             scene.output_interval * (std::floor((clock.value() + almost) / scene.output_interval) + 1);
         const scalar target = min(next_output, scene.end_time);
         const scalar step = time_step.next(clock.value(), target);
+        if (scene.physics.flow) center_fluxes(fields.flow(), time_step.longer_than_last());
         clock.setDeltaT(step, false);
         ++clock;
         ++state.steps;

@@ -5,6 +5,7 @@
 #include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
+#include "viscous_stress.hpp"
 
 namespace cupel
 {
@@ -29,21 +30,24 @@ tmp<surfaceScalarField> face_forces(const Scene& scene, const Fields& fields, co
     return force;
 }
 
-/// Rate of change of the momentum that each face's own flux of the last step has beyond the mean of its cells' momenta
-/// [kg/s²]: with it the flux keeps its inertia, as on a staggered mesh.
-tmp<surfaceScalarField> own_history(const FlowFields& flow, const volScalarField& A)
+/// What each face's own flux of the last step has beyond the mean of its cells' velocities, times what a cell resists a
+/// change with, ρ/Δt + D [kg/s²]: with it the flux keeps its inertia, as on a staggered mesh.
+tmp<surfaceScalarField> own_history(const FlowFields& flow, const volScalarField& damping)
 {
-    const fvMesh& mesh = A.mesh();
-    const volScalarField& density = flow.density.oldTime();
-    tmp<surfaceScalarField> history(
-        (fvc::interpolate(density) * flow.flux.oldTime() - fvc::flux(density * flow.velocity.oldTime())) /
-        mesh.time().deltaT());
+    const volScalarField resistance(flow.density.oldTime() / damping.mesh().time().deltaT() + damping);
+    tmp<surfaceScalarField> history(fvc::interpolate(resistance) * flow.flux.oldTime() -
+                                    fvc::flux(resistance * flow.velocity.oldTime()));
     surfaceScalarField::Boundary& at_boundary = history.ref().boundaryFieldRef();
     forAll (at_boundary, patch)
         if (!at_boundary[patch].coupled()) at_boundary[patch] = 0;
     return history;
 }
 } // namespace
+
+void center_fluxes(FlowFields& flow, scalar longer)
+{
+    if (flow.acceleration.valid()) flow.flux += dimensionedScalar("half", dimTime, 0.5 * longer) * flow.acceleration();
+}
 
 void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometry& geometry)
 {
@@ -53,20 +57,12 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
     volScalarField& p_rgh = flow.reduced_pressure;
     surfaceScalarField& phi = flow.flux;
 
-    const scalar primary = scene.primary.viscosity, surrounding = scene.surrounding.viscosity;
-    const volScalarField viscosity("viscosity",
-                                   map_field(fields.fraction, "viscosity", dimPressure * dimTime, [=](scalar share) {
-                                       const scalar bounded = min(max(share, scalar(0)), scalar(1));
-                                       return bounded * primary + (1 - bounded) * surrounding;
-                                   }));
-
     autoPtr<SurfaceTemperature> surface;
     if (scene.physics.has_temperature() && (scene.physics.marangoni || scene.physics.surface_tension))
         surface.reset(new SurfaceTemperature(scene, fields, geometry));
 
-    fvVectorMatrix momentum(fvm::ddt(flow.density, U) + fvm::div(flow.mass_flux, U) -
-                            fvm::laplacian(fvc::interpolate(viscosity), U) -
-                            fvc::div(viscosity * dev2(Foam::T(fvc::grad(U)))));
+    const ViscousStress viscous_stress(scene, fields);
+    fvVectorMatrix momentum(fvm::ddt(flow.density, U) + fvm::div(flow.mass_flux, U) + viscous_stress.resistance(U));
     if (scene.physics.melting) momentum += fvm::Sp(mushy_drag(scene, fields), U);
     if (mag(flow.periodic_gravity) > 0)
         momentum -= flow.density * dimensionedVector("periodic_gravity", dimAcceleration, flow.periodic_gravity);
@@ -76,7 +72,7 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr));
     const volScalarField A("A", momentum.A());
     const surfaceScalarField rAUf("rAUf", 1 / fvc::interpolate(A));
-    const surfaceScalarField inertia(own_history(flow, A));
+    const surfaceScalarField inertia(own_history(flow, viscous_stress.damping()()));
     const label correctors = scene.numerics.get<label>("pressure_correctors");
     if (scene.numerics.get<bool>("momentum_predictor"))
         solve(momentum == A * fvc::reconstruct(rAUf * (forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
@@ -99,6 +95,7 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         U.correctBoundaryConditions();
         if (!std::isfinite(residual)) break; // the guards say where
     }
+    if (flow.acceleration.valid()) flow.acceleration() = (phi - phi.oldTime()) / mesh.time().deltaT();
     U += fvc::reconstruct(phi - fvc::flux(flow.density * U) / fvc::interpolate(flow.density));
     U.correctBoundaryConditions();
 }

@@ -11,7 +11,7 @@ const scalar growth = 1.2; // a step is at most so much longer than the one befo
 
 TimeStep::TimeStep(const Scene& scene, const Fields& fields)
     : scene_(scene), fields_(fields), smallest_cell_(scene.spacing), gravity_speed_(0),
-      last_(1e-3 * scene.output_interval)
+      last_(1e-3 * scene.output_interval), taken_(0), longer_(0)
 {
     if (!scene.physics.flow || !scene.physics.gravity) return;
     // the difference of g·x over the scene is g H
@@ -75,12 +75,16 @@ scalar TimeStep::next(scalar time, scalar target)
     ++binding_[name];
     last_ = limit;
     const scalar steps = std::ceil((target - time) / limit - 1e-6);
-    return (target - time) / max(steps, scalar(1));
+    const scalar step = (target - time) / max(steps, scalar(1));
+    longer_ = taken_ > 0 ? step - taken_ : 0;
+    taken_ = step;
+    return step;
 }
 
 void TimeStep::save(dictionary& entries) const
 {
     entries.set("last_limit", last_);
+    entries.set("taken", taken_);
     dictionary counts;
     for (const auto& entry : binding_)
         counts.set(word(entry.first), entry.second);
@@ -90,6 +94,7 @@ void TimeStep::save(dictionary& entries) const
 void TimeStep::restore(const dictionary& entries)
 {
     entries.readEntry("last_limit", last_);
+    entries.readEntry("taken", taken_);
     const dictionary& counts = entries.subDict("binding");
     for (const word& name : counts.toc())
         binding_[name] = counts.get<label>(name);

@@ -26,6 +26,9 @@ public:
     /// The next step [s] from `time`, shortened so that an integer number of steps reaches `target`.
     scalar next(scalar time, scalar target);
 
+    /// By how much that step is longer than the one before it [s]; 0 for the first.
+    scalar longer_than_last() const { return longer_; }
+
     /// Greatest Courant number that the present velocity has with the step `step`.
     scalar courant(scalar step) const;
     const std::map<std::string, label>& binding() const { return binding_; }
@@ -39,7 +42,7 @@ private:
 
     const Scene& scene_;
     const Fields& fields_;
-    scalar smallest_cell_, gravity_speed_, last_;
+    scalar smallest_cell_, gravity_speed_, last_, taken_, longer_;
     std::map<std::string, label> binding_;
 };
 } // namespace cupel

@@ -75,10 +75,15 @@ def completed(data: dict[str, Any], folder: Path, *options: str) -> dict[str, An
 
 def last_fields(data: dict[str, Any], folder: Path) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Fields of the last snapshot and cell centres (n, 3), read from the VTK file."""
+    return fields_of(folder, -1)
+
+
+def fields_of(folder: Path, snapshot: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """The same of any snapshot by its number."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
     reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(sorted((folder/"result"/"fields").glob("*.vtu"))[-1]))
+    reader.SetFileName(str(sorted((folder/"result"/"fields").glob("*.vtu"))[snapshot]))
     reader.Update()
     mesh = reader.GetOutput()
     corners = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 8)

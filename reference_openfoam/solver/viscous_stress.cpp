@@ -1,0 +1,54 @@
+#include "viscous_stress.hpp"
+
+namespace cupel
+{
+namespace
+{
+tmp<volScalarField> mixture_viscosity(const Scene& scene, const volScalarField& fraction)
+{
+    const scalar primary = scene.primary.viscosity, surrounding = scene.surrounding.viscosity;
+    return map_field(fraction, "viscosity", dimPressure * dimTime, [=](scalar share) {
+        const scalar bounded = min(max(share, scalar(0)), scalar(1));
+        return bounded * primary + (1 - bounded) * surrounding;
+    });
+}
+
+/// ∂u_k/∂x_k in cells for k = x, y, z [1/s]: net outflow along each axis by the cell's volume.
+tmp<volVectorField> rates_of_stretch(const surfaceScalarField& flux)
+{
+    const surfaceVectorField normal(flux.mesh().Sf() / flux.mesh().magSf());
+    surfaceVectorField axis(cmptMultiply(normal, normal)); // whichever way the face's normal points
+    axis.setOriented(false);
+    return fvc::surfaceIntegrate(flux * axis);
+}
+} // namespace
+
+ViscousStress::ViscousStress(const Scene& scene, const Fields& fields)
+    : mesh_(fields.mesh), flux_(fields.flow->flux), viscosity_(mixture_viscosity(scene, fields.fraction)),
+      on_faces_(fvc::interpolate(viscosity_))
+{}
+
+tmp<fvVectorMatrix> ViscousStress::resistance(volVectorField& velocity) const
+{
+    volTensorField gradient(fvc::grad(velocity));
+    const volVectorField stretch(rates_of_stretch(flux_));
+    forAll (gradient, cell) {
+        gradient[cell].xx() = stretch[cell].x();
+        gradient[cell].yy() = stretch[cell].y();
+        gradient[cell].zz() = stretch[cell].z();
+    }
+    gradient.correctBoundaryConditions();
+    return -fvm::laplacian(on_faces_, velocity) - fvc::div(viscosity_ * Foam::T(gradient));
+}
+
+tmp<volScalarField> ViscousStress::damping() const
+{
+    tmp<volScalarField> result(new volScalarField(
+        IOobject("damping", mesh_.time().timeName(), mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
+        dimensionedScalar(dimDensity / dimTime, Zero)));
+    result.ref().primitiveFieldRef() =
+        fvc::surfaceSum(on_faces_ * mesh_.magSf() * mesh_.nonOrthDeltaCoeffs())().primitiveField() / mesh_.V().field();
+    result.ref().correctBoundaryConditions();
+    return result;
+}
+} // namespace cupel
