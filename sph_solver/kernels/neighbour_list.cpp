@@ -101,7 +101,7 @@ void NeighbourList::sort_into_columns(Particles& particles)
 #pragma omp parallel for schedule(static) if (count > 8192)
     for (Index i = 0; i < count; ++i) {
         const Vector p = position[i];
-        column_of[static_cast<std::size_t>(i)] = column_y(p.y) * columns_x_ + column_x(p.x);
+        column_of[static_cast<std::size_t>(i)] = static_cast<Index>(column_at(column_x(p.x), column_y(p.y)));
     }
     for (const Index column : column_of)
         ++begin[static_cast<std::size_t>(column) + 1];
@@ -208,8 +208,7 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
     };
     for (Index cy = y0; cy <= y1; ++cy)
         for (Index cx = x0; cx <= x1; ++cx) {
-            const auto column =
-                static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(cx);
+            const std::size_t column = column_at(cx, cy);
             const Index end = first_cluster_of_column_[column + 1];
             Index d = first_cluster_of_column_[column];
             if (loose_.empty() && end - d > 64)
@@ -342,8 +341,7 @@ void NeighbourList::spread_loose_over_columns()
         const Box& box = boxes_[static_cast<std::size_t>(d)];
         for (Index cy = column_y(box.lower.y); cy <= column_y(box.upper.y); ++cy)
             for (Index cx = column_x(box.lower.x); cx <= column_x(box.upper.x); ++cx)
-                visit(static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_x_) +
-                      static_cast<std::size_t>(cx));
+                visit(column_at(cx, cy));
     };
     std::vector<Index>& first = first_loose_of_column_;
     std::fill(first.begin(), first.end(), 0);

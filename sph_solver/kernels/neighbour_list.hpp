@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <numeric>
@@ -140,6 +141,15 @@ private:
     static Box image_of(const Box& box, const Image& image);
     Index column_x(double x) const;
     Index column_y(double y) const;
+    /// Columns are numbered in strips of a few along x, each of them row after row along y: what a cluster sees was
+    /// seen not long before, and is still in the nearer caches.
+    std::size_t column_at(Index cx, Index cy) const
+    {
+        constexpr Index strip = 8;
+        const Index first = cx / strip * strip, width = std::min(strip, columns_x_ - first);
+        return static_cast<std::size_t>(first) * static_cast<std::size_t>(columns_y_) +
+               static_cast<std::size_t>(cy * width + cx - first);
+    }
 
     double support_, skin_, column_width_;
     Images images_;
