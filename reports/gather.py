@@ -74,8 +74,9 @@ class Case:
 
     @property
     def power(self) -> float | None:
+        """Laser power [W], where the case has a place among the tracks of several powers: a long one repeats a power of theirs."""
         laser = self.settings.get("laser")
-        return laser["power"] if laser else None
+        return laser["power"] if laser and self.tier != "long" else None
 
 
 def gather(root: Path, names: list[str] | None, variant: str) -> tuple[list[Case], list[Row]]:

@@ -14,6 +14,7 @@ from cupel.convergence import converge
 from cupel.kept import keep
 from cupel.results import kept_cases, read_result, write_result
 from reports import gather as gather_module
+from reports.gather import Case, Run
 from reports.histories import history_picture, read_table
 from reports.orders import order_row, orders_block
 from reports.tiers import margin_text, tier_blocks
@@ -131,3 +132,11 @@ def test_histories_stand_beside_the_exact_ones(suite, tmp_path):
     cases, _ = gather_module.gather(suite, ["wave", "good"], "coarse")
     assert history_picture("v0", "Exact", cases).image.startswith("data:image/png")
     assert "no result" in history_picture("v0", "Exact", cases[1:]).missing
+
+
+def test_a_long_track_has_no_place_among_those_of_several_powers():
+    def power(**settings):
+        return Case("track", runs=[Run(None, {"settings": settings}, [])]).power
+
+    assert power(laser={"power": 150.0}) == 150.0 and power() is None
+    assert power(laser={"power": 150.0}, tier="long") is None
