@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -17,13 +16,15 @@ namespace cupel::inline CUPEL_ENGINE
 class ClusterBoxes
 {
 public:
+    static constexpr Index at_once = sizeof(Filled) / sizeof(float);
+
     /// All of them out of reach to begin with.
     void resize(std::size_t count)
     {
         for (auto& axis : lower_)
-            axis.assign(count + 16, infinity);
+            axis.assign(count + at_once, infinity);
         for (auto& axis : upper_)
-            axis.assign(count + 16, -infinity);
+            axis.assign(count + at_once, -infinity);
     }
     /// Corners in m from a common origin.
     void set(Index c, const Vector& lower, const Vector& upper)
@@ -42,8 +43,8 @@ public:
         }
     }
 
-    /// Of the clusters from `first` to the one before `end`, at most 16, those that come nearer than √square_limit to a
-    /// box: a bit for each.
+    /// Of the clusters from `first` to the one before `end`, at most at_once, those that come nearer than √square_limit
+    /// to a box: a bit for each.
     unsigned near(Index first, Index end, const Vector& lower, const Vector& upper, float square_limit) const
     {
         Filled square{};
@@ -53,7 +54,7 @@ public:
             const Filled gap = greater(greater(below, above), Filled{});
             square += gap * gap;
         }
-        return lanes_below(square, square_limit) & ((1u << std::min<Index>(end - first, 16)) - 1u);
+        return lanes_below(square, square_limit) & ((1u << std::min(end - first, at_once)) - 1u);
     }
     std::size_t bytes() const { return 6 * lower_[0].size() * sizeof(float); }
 

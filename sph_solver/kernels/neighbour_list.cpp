@@ -211,13 +211,13 @@ template <class Visit> void NeighbourList::for_each_cluster_near(const Box& box,
             const std::size_t column = column_at(cx, cy);
             const Index end = first_cluster_of_column_[column + 1];
             Index d = first_cluster_of_column_[column];
-            if (loose_.empty() && end - d > 64)
+            if (loose_.empty() && end - d > 4 * ClusterBoxes::at_once)
                 // A column's clusters are in order of height until some have moved.
                 d = static_cast<Index>(
                     std::partition_point(boxes_.begin() + d, boxes_.begin() + end,
                                          [&](const Box& other) { return other.upper.z < box.lower.z - reach; }) -
                     boxes_.begin());
-            for (; d < end; d += 16) {
+            for (; d < end; d += ClusterBoxes::at_once) {
                 unsigned found =
                     boxes_in_columns_.near(d, end, lower, upper, static_cast<float>(reach_squared * 1.00001));
                 for (; found != 0; found &= found - 1)
