@@ -133,7 +133,6 @@ Vector Flow::sum_of_pair_forces(Index i) const
 {
     Vector force = pressure_force_[i] + viscous_force_[i];
     if (artificial_force_) force += (*artificial_force_)[i];
-    if (shifting_force_) force += (*shifting_force_)[i];
     return force;
 }
 
@@ -146,15 +145,15 @@ MechanicalWork Flow::work(Index i, const Vector& mean_velocity, const KickTimes&
 {
     MechanicalWork work;
     work.pressure = dot(pressure_force_[i], times.sound * mean_velocity);
+    if (wall_force_) work.imbalance = dot((*wall_force_)[i], times.sound * mean_velocity);
     work.gravity = particles_.mass[i] * dot(gravity_, times.sound * mean_velocity);
     if (by_surface_) work.surface = particles_.mass[i] * dot(kick_by_surface(i, times), mean_velocity);
     if (times.slow == 0.0) return work;
     const Vector path = times.slow * mean_velocity;
     work.viscosity = dot(viscous_force_[i], path);
     if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
-    if (shifting_force_) work.shifting = dot((*shifting_force_)[i], path);
-    work.surface += particles_.mass[i] * dot(acceleration_[i] - acceleration_by_sound(i), path) - work.viscosity -
-                    work.artificial - work.shifting;
+    work.surface +=
+        particles_.mass[i] * dot(acceleration_[i] - acceleration_by_sound(i), path) - work.viscosity - work.artificial;
     return work;
 }
 

@@ -26,7 +26,23 @@ struct SoundStep
     double whole;     ///< the step of which it is a part, s
     bool halfway;     ///< whether it ends in the middle of that
     bool last;        ///< whether the next ends where that does
+
+    /// The k-th (from 1) of count steps of sound in a whole one, the last of which evaluates everything.
+    static SoundStep of(int k, int count, double whole)
+    {
+        return {whole / count, whole, k == (count + 1) / 2, k + 1 == count};
+    }
 };
+
+/// How much of its drift the k-th (from 1) of count steps of sound has behind it where densities are found; the last,
+/// which evaluates everything, has all. Pressure does the work p_n·D_n v_n at the places of step n, and compression
+/// takes p_(n+½)·D v_(n+½). With D of the end of the drift the second exceeds the first by ½ Δt Σ p Ḋ v, with D of its
+/// start it falls short by as much. So the places advance from start to end: half way on the average, and the same
+/// whether time runs forwards or backwards. One step alone cannot have that.
+inline double drift_before_densities(int k, int count)
+{
+    return (k - 1.0) / (count - 1.0);
+}
 
 /// For how long each kind of force acts in a kick, s.
 struct KickTimes
@@ -51,14 +67,17 @@ public:
 
     /// Whether sound may be followed in shorter steps within one step of all else.
     virtual bool follows_sound() const { return false; }
-    /// One of those, after each drift but the last: densities by continuity and the force of pressure at the new
-    /// positions, all else held. evaluate() then does what sound still lacks of the step.
+    /// One of those, all but the last: densities by continuity, somewhere on the way, ...
+    virtual void find_densities(const Neighbourhood&, const SoundStep&) {}
+    /// ... and the force of pressure where the drift ends; all else is held. evaluate() then does what sound still
+    /// lacks of the step.
     virtual void evaluate_sound(const Neighbourhood&, const SoundStep&) {}
 
     /// A particle that has just melted or solidified starts from rest.
     virtual void reset(Index place)
     {
         acceleration_.set(place, {});
+        pressure_force_.set(place, {});
         if (by_surface_) by_surface_->set(place, {});
         if (surface_) surface_->reset(place);
     }
@@ -112,7 +131,7 @@ protected:
     {
         return (times.surface - times.slow) * (*by_surface_)[i] + times.surface_before * (*by_surface_before_)[i];
     }
-    /// Pressure and viscosity, the artificial forces, and what shifting carries, N.
+    /// Pressure and viscosity, and the artificial forces, N.
     Vector sum_of_pair_forces(Index i) const;
     /// force_ ← that.
     void add_up_forces(const Neighbourhood& neighbourhood);
@@ -132,8 +151,8 @@ protected:
     VectorField& force_; ///< of all pairs
     VectorField& pressure_force_;
     VectorField& viscous_force_;
+    VectorField* wall_force_ = nullptr;       ///< of pressure_force_, what walls and solids press: for the books
     VectorField* artificial_force_ = nullptr; ///< only where a case switches such forces on
-    VectorField* shifting_force_ = nullptr;   ///< momentum that shifting carries
     VectorField& acceleration_;
     VectorField* by_surface_ = nullptr;        ///< acceleration by load, cohesion: only where it is held
     VectorField* by_surface_before_ = nullptr; ///< a step ago

@@ -18,8 +18,10 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
     : Flow(scene, parameters, mobility), correction_(CorrectionMatrix::register_in(particles_)),
       velocity_gradient_(VelocityGradientFields::register_in(particles_)),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
-      wall_power_(particles_.add_scalar({"wall_power", "W"})), rest_density_(scene.materials.front().density)
+      density_rate_by_walls_(particles_.add_scalar({"density_rate_by_walls", "kg/(m3 s)"})),
+      rest_density_(scene.materials.front().density)
 {
+    wall_force_ = &particles_.add_vector({"wall_force", "N"});
     if (load_ && !band_bears_load_) {
         excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
         replaced_rate_ = &particles_.add_scalar({"replaced_density_rate", "kg/(m3 s)"});
@@ -33,9 +35,9 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
     }
     if (scene.definition.numerics.shifting > 0.0) {
         shift_ = &particles_.add_vector({"shifting_velocity", "m/s"});
-        shifting_force_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         shifting_density_rate_ = &particles_.add_scalar({"shifting_density_rate", "kg/(m3 s)"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
+        momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
         if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
@@ -77,6 +79,8 @@ void FreeSurfaceFlow::reset(Index place)
     Flow::reset(place);
     velocity_gradient_.reset(place);
     (*excess_pressure_)[place] = 0.0;
+    wall_force_->set(place, {});
+    density_rate_by_walls_[place] = 0.0;
     if (density_gradient_) density_gradient_->set(place, {});
     if (!shift_) return;
     shift_->set(place, {});
@@ -99,6 +103,7 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
                                 velocity_gradient_,
                                 carried_load_ ? &surface_->fields().delta : nullptr,
                                 density_rate_,
+                                density_rate_by_walls_,
                                 replaced_rate_};
     const auto sum = [&](const auto&... others) {
         const auto sum_all = [&](const auto&... diffusion) {
@@ -116,16 +121,19 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
     sum_with_exchange(neighbourhood, [&](const auto& exchange) { sum(surface_->colour_gradient(), exchange); });
 }
 
-void FreeSurfaceFlow::exchange_mass(const Neighbourhood& neighbourhood, double time_step)
+/// Mass goes from particle to particle with its momentum and its enthalpy.
+void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_step)
 {
     const auto& moving = neighbourhood.moving_particles();
     books_.shifting += ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
         const Index i = moving[static_cast<std::size_t>(m)];
         const double gain = time_step * (*mass_rate_)[i], mass = particles_.mass[i] + gain;
         if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
+        const Vector before = particles_.velocity[i], velocity = before + (time_step / mass) * (*momentum_rate_)[i];
+        const double kinetic = 0.5 * (mass * dot(velocity, velocity) - particles_.mass[i] * dot(before, before));
         particles_.mass[i] = mass;
-        const Vector v = particles_.velocity[i];
-        return gain * (0.5 * dot(v, v) + elastic_energy(i));
+        particles_.velocity.set(i, velocity);
+        return kinetic + gain * elastic_energy(i);
     });
 }
 
@@ -139,12 +147,17 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
     const auto energy = [&] {
         return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest_density_);
     };
-    const double before = energy();
+    // de/dρ
+    const auto stiffness = [&] {
+        return parameters_.equation_of_state.pressure(particles_.density[i], rest_density_) /
+               (particles_.density[i] * particles_.density[i]);
+    };
+    const double before = energy(), stiffness_before = stiffness();
     const double diffused = diffusion_rate_ ? times.diffusion * (*diffusion_rate_)[i] : 0.0;
     const double shifted = shifting_density_rate_ ? times.shifting * (*shifting_density_rate_)[i] : 0.0;
     const double changes = times.flow * density_rate_[i] + diffused + shifted;
     particles_.density[i] += changes;
-    const double compressed = energy();
+    const double compressed = energy(), unlimited = particles_.density[i];
     // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
     if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
     particles_.density[i] =
@@ -153,13 +166,16 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
     (*excess_pressure_)[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
 
     MechanicalWork work;
-    const double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
+    // What a change of density is worth. Where it was limited, forces have never seen what is cut off: it is worth what
+    // the pressures at both ends of the step say, and the limiter answers for the rest.
+    double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
+    if (particles_.density[i] != unlimited) worth = 0.5 * particles_.mass[i] * (stiffness_before + stiffness());
     const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
     work.compression = worth * times.flow * (density_rate_[i] - replaced);
-    work.imbalance = worth * times.flow * replaced;
+    work.imbalance = worth * times.flow * (replaced + density_rate_by_walls_[i]);
     work.density_diffusion = worth * diffused;
     work.shifting = worth * shifted;
-    work.limiter = particles_.mass[i] * (energy() - compressed);
+    work.limiter = particles_.mass[i] * (energy() - before) - worth * changes;
     return work;
 }
 
@@ -168,14 +184,6 @@ void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const Compres
     const auto& moving = neighbourhood.moving_particles();
     books_ += ordered_sum(static_cast<Index>(moving.size()),
                           [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], times); });
-}
-
-void FreeSurfaceFlow::book_walls(const Neighbourhood& neighbourhood, double time_step)
-{
-    const auto& moving = neighbourhood.moving_particles();
-    books_.imbalance += time_step * ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
-                            return wall_power_[moving[static_cast<std::size_t>(m)]];
-                        });
 }
 
 /// Forces between particles, and in the same pass the shifting velocity of the next drift, the gradient of density by
@@ -190,7 +198,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
                                        scene_.materials.front().viscosity.value(),
                                        pressure_force_,
                                        viscous_force_,
-                                       wall_power_};
+                                       *wall_force_};
     // What follows momentum adds to what it has just stored for the same cluster.
     const ViscousTraction traction{mobility_,          particles_.volume, velocity_gradient_,
                                    momentum.viscosity, nullptr,           viscous_force_};
@@ -289,7 +297,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     const double sound = time_step - sound_ahead_;
     extrapolate_velocity(neighbourhood, exchanges);
     find_rates(neighbourhood);
-    if (exchanges) exchange_mass(neighbourhood, time_step);
+    if (exchanges) exchange(neighbourhood, time_step);
     compress(neighbourhood, {sound, time_step, exchanges ? time_step : 0.0});
     sound_ahead_ = 0.0;
     exchanged_ = false;
@@ -297,7 +305,6 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
 
     if (surface_) surface_->find(neighbourhood);
     find_forces(neighbourhood, alone);
-    book_walls(neighbourhood, sound);
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);

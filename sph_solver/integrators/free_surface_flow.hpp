@@ -22,6 +22,7 @@ public:
     {
         return !(scene_.definition.requires_physics("wetting") && particles_.has("wall_normal"));
     }
+    void find_densities(const Neighbourhood& neighbourhood, const SoundStep& step) override;
     void evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step) override;
     void reset(Index place) override;
 
@@ -29,7 +30,7 @@ private:
     void start_hydrostatic();
     void find_rates(const Neighbourhood& neighbourhood);
     template <class SumWith> void sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with);
-    void exchange_mass(const Neighbourhood& neighbourhood, double time_step);
+    void exchange(const Neighbourhood& neighbourhood, double time_step);
     struct CompressionTimes
     {
         double flow, diffusion, shifting; ///< s
@@ -37,7 +38,6 @@ private:
     void compress(const Neighbourhood& neighbourhood, const CompressionTimes& times);
     MechanicalWork compress(Index i, const CompressionTimes& times);
     void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
-    void book_walls(const Neighbourhood& neighbourhood, double time_step);
     void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
     void extrapolate_velocity(const Neighbourhood& neighbourhood, bool with_shift);
@@ -46,7 +46,7 @@ private:
     CorrectionMatrix correction_;
     VelocityGradientFields velocity_gradient_;
     ScalarField& density_rate_;
-    ScalarField& wall_power_; ///< W
+    ScalarField& density_rate_by_walls_;
     double rest_density_;
     double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
     bool exchanged_ = false;   ///< whether what shifting carries has been exchanged since then
@@ -61,6 +61,7 @@ private:
     VectorField* shift_ = nullptr;
     ScalarField* shifting_density_rate_ = nullptr;
     ScalarField* mass_rate_ = nullptr;
+    VectorField* momentum_rate_ = nullptr;
     ScalarField* balance_ = nullptr;
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;
@@ -76,7 +77,7 @@ void FreeSurfaceFlow::sum_with_exchange(const Neighbourhood& neighbourhood, cons
     const auto exchange = [&](auto with_enthalpy) {
         return ShiftingExchange<with_enthalpy()>{
             mobility_, particles_.volume,       particles_.density, particles_.velocity, *shift_,     *balance_,
-            enthalpy_, *shifting_density_rate_, *mass_rate_,        *shifting_force_,    energy_rate_};
+            enthalpy_, *shifting_density_rate_, *mass_rate_,        *momentum_rate_,     energy_rate_};
     };
     enthalpy_ ? sum_with(exchange(std::true_type{})) : sum_with(exchange(std::false_type{}));
 }

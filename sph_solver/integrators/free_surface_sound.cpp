@@ -7,31 +7,38 @@ namespace cupel::inline CUPEL_ENGINE
 
 /// Shifting moves particles for the whole of a step. What that carries between them is found in the middle of it, where
 /// their places are the mean of those on the way.
-void FreeSurfaceFlow::evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step)
+void FreeSurfaceFlow::find_densities(const Neighbourhood& neighbourhood, const SoundStep& step)
 {
     const bool exchanges = shift_ && step.halfway;
-    const ContinuityOfSound continuity{mobility_,
-                                       particles_.density,
-                                       particles_.velocity,
-                                       correction_,
-                                       carried_load_ ? &surface_->fields().delta : nullptr,
-                                       density_rate_,
-                                       replaced_rate_};
     const auto sum = [&](const auto&... others) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...);
+        const auto sum_all = [&](auto with_walls) {
+            const ContinuityOfSound<with_walls()> continuity{mobility_,
+                                                             particles_.density,
+                                                             particles_.velocity,
+                                                             correction_,
+                                                             carried_load_ ? &surface_->fields().delta : nullptr,
+                                                             density_rate_,
+                                                             density_rate_by_walls_,
+                                                             replaced_rate_};
+            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...);
+        };
+        neighbourhood.standing().empty() ? sum_all(std::false_type{}) : sum_all(std::true_type{});
     };
     extrapolate_velocity(neighbourhood, exchanges);
     if (exchanges) {
         sum_with_exchange(neighbourhood, sum);
-        exchange_mass(neighbourhood, step.whole);
+        exchange(neighbourhood, step.whole);
         exchanged_ = true;
     }
     else
         sum();
     compress(neighbourhood, {step.time_step, 0.0, exchanges ? step.whole : 0.0});
+}
+
+void FreeSurfaceFlow::evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step)
+{
     extrapolate_pressure(neighbourhood);
     find_pressure_force(neighbourhood, step.last);
-    book_walls(neighbourhood, step.time_step);
     sound_ahead_ += step.time_step;
 }
 
@@ -40,8 +47,8 @@ void FreeSurfaceFlow::find_pressure_force(const Neighbourhood& neighbourhood, bo
 {
     const bool finds_gradient = density_gradient_ && with_density_gradient;
     const auto sum = [&](auto with_walls) {
-        const PressureForce<with_walls()> force{mobility_,           particles_.volume, *excess_pressure_,
-                                                particles_.velocity, pressure_force_,   wall_power_};
+        const PressureForce<with_walls()> force{mobility_, particles_.volume, *excess_pressure_, pressure_force_,
+                                                *wall_force_};
         const auto sum_all = [&](const auto&... others) {
             for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), force, others...);
         };

@@ -181,20 +181,22 @@ int Simulation::steps_of_sound(double fitting) const
     return static_cast<int>(std::clamp(std::round(fitting), 1.0, static_cast<double>(most_steps_of_sound())));
 }
 
-void Simulation::kick(const KickTimes& times)
+void Simulation::kick(const KickTimes& times, double with_new_velocity)
 {
     Particles& particles = *scene_.particles;
     flow_->books() += sum_over_moving([&](Index i) {
         const Vector before = particles.velocity[i], change = flow_->kick(i, times);
-        Vector velocity = before + change;
-        MechanicalWork work = flow_->work(i, before + 0.5 * change, times);
+        const bool mushy = melts_ && (*liquid_fraction_)[i] < 1.0;
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
-        if (melts_ && (*liquid_fraction_)[i] < 1.0) {
-            const double factor = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound);
-            work.mush = 0.5 * particles.mass[i] * (factor * factor - 1.0) * dot(velocity, velocity);
-            velocity = factor * velocity;
-        }
+        const double kept =
+            mushy ? mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound) : 1.0;
+        const Vector velocity = kept * (before + change);
         particles.velocity.set(i, velocity);
+        if (!mushy) return flow_->work(i, before + 0.5 * change, times);
+        // Within a kick drag may stop what forces move. They do their work on the path that is left, and drag takes the
+        // rest of what kinetic energy loses.
+        MechanicalWork work = flow_->work(i, before + with_new_velocity * (velocity - before), times);
+        work.mush = 0.5 * particles.mass[i] * (dot(velocity, velocity) - dot(before, before)) - work.on_motion();
         return work;
     });
 }
@@ -268,16 +270,20 @@ double Simulation::escaped_mass() const
 void Simulation::advance_flow(double time_step)
 {
     const double whole = time_step, sound = time_step / substeps_;
-    kick({0.5 * sound, 0.5 * whole, 0.5 * sound});
+    kick({0.5 * sound, 0.5 * whole, 0.5 * sound}, 1.0);
     for (int k = 1; k < substeps_; ++k) {
-        move(sound);
-        flow_->evaluate_sound(neighbourhood_, {sound, whole, k == (substeps_ + 1) / 2, k + 1 == substeps_});
-        kick({sound, 0.0, sound});
+        const SoundStep step = SoundStep::of(k, substeps_, whole);
+        const double before = sound * drift_before_densities(k, substeps_);
+        move(before);
+        flow_->find_densities(neighbourhood_, step);
+        move(sound - before);
+        flow_->evaluate_sound(neighbourhood_, step);
+        kick({sound, 0.0, sound}, 0.5);
     }
     move(sound);
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, whole);
-    kick({0.5 * sound, 0.5 * whole, 0.5 * whole, 0.5 * (sound - whole)});
+    kick({0.5 * sound, 0.5 * whole, 0.5 * whole, 0.5 * (sound - whole)}, 0.0);
     if (heat_) mark_what_moved();
     retire_escaped();
     sound_steps_ += static_cast<std::uint64_t>(substeps_);
@@ -286,6 +292,7 @@ void Simulation::advance_flow(double time_step)
 
 void Simulation::move(double time_step)
 {
+    if (time_step == 0.0) return;
     flow_->drift(neighbourhood_, time_step);
     hold_before_walls();
     neighbourhood_.update(*scene_.particles, mobility_);

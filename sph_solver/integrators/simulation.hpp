@@ -77,7 +77,9 @@ private:
     void mark_what_moved();
     void advance_heat(double until);
     void melt_and_solidify();
-    void kick(const KickTimes& times);
+    /// with_new_velocity: of the path that the kick's forces act along, the share that is gone with the velocity after
+    /// it.
+    void kick(const KickTimes& times, double with_new_velocity);
     double energy_of_what_stops(Index i) const;
     void retire_escaped();
     void hold_before_walls();

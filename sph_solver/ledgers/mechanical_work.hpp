@@ -54,6 +54,9 @@ struct MechanicalWork
         return *this;
     }
 
+    /// What forces other than drag give to motion in a kick, J.
+    double on_motion() const { return pressure + viscosity + gravity + surface + artificial; }
+
     /// The books from what was there at the start and is there now, J.
     Ledger ledger(double start, double end) const
     {

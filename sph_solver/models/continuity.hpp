@@ -14,7 +14,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// particles lie, and in a closed layer the packing drifts from the density (1.6 % of the depth in a quarter of a
 /// turn). The price: rows that slide past each other breathe, and a stiff pressure answers with drag, which shows where
 /// the sound speed is hundreds of times the flow's (validation_cases/marangoni_layer/README.md). Walls and solids take
-/// part with their extrapolated velocity.
+/// part with their extrapolated velocity; what that does to density, −ρ_i Σ_w V_w v_w·∇W_iw, is kept for the books.
 ///
 /// At a free surface a kernel that is cut off sees half of what changes across the surface and most of what changes
 /// along it, so that a flow without divergence seems to have one: layers move by turns too far and too little, and a
@@ -31,25 +31,29 @@ struct Continuity
     VelocityGradientFields gradient;  ///< ∇v, corrected, of this step
     const ScalarField* surface_delta; ///< above zero in the surface's band; null where the load is not carried
     ScalarField& density_rate;
+    ScalarField& by_walls; ///< of the sum, what walls and solids do by the way they move, kg/(m³ s)
     ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
     using Near = Of<Lanes, quantity::Density, quantity::Velocity>;
-    using Far = Of<Real, quantity::Velocity>;
+    using Far = Of<Real, quantity::Liquid, quantity::Velocity>;
     struct Sum
     {
-        Lanes divergence{};
+        Lanes divergence{}, walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const { return {lanes(density, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(velocity[j])}; }
+    Far far(Index j) const { return {real(mobility.weight[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.divergence += dot(i.velocity - broadcast(j.velocity), pair.volume_gradient);
+        if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        store_if(density_rate, cluster, i.density * sum.divergence, [&](Index k) { return mobility.weight[k] != 0.0; });
+        const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
+        store_if(density_rate, cluster, i.density * sum.divergence, liquid);
+        store_if(by_walls, cluster, i.density * sum.walls, liquid);
         if (!surface_delta) return;
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index k = cluster.first + lane;

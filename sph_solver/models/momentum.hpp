@@ -12,9 +12,9 @@ namespace cupel::inline CUPEL_ENGINE
 /// The first sum is the variational partner of the continuity equation (Colagrossi et al. 2009: consistent at a free
 /// surface, where p → 0); the second is Morris, Fox, Zhu 1997, eq. 22, to which viscous_traction.hpp adds what it lacks
 /// at a free surface. Both are antisymmetric: they conserve momentum
-/// between liquid particles to round-off. For the books, what pressure does against walls and solids, which liquid
-/// meets with an extrapolated pressure and velocity: −Σ_w V_i V_w (p_w v_i + p_i v_w)·∇W_iw [W], the part of pressure's
-/// work that no compression of liquid answers. Shifting keeps the arrangement even, which the second sum relies on.
+/// between liquid particles to round-off. For the books, what walls and solids press by the pressure that they are
+/// given: −Σ_w V_i V_w p_w ∇W_iw [N]. Its work no compression of liquid answers, and what pressure does beside it the
+/// continuity equation takes. Shifting keeps the arrangement even, which the second sum relies on.
 struct FreeSurfaceMomentum
 {
     Mobility mobility;
@@ -24,14 +24,13 @@ struct FreeSurfaceMomentum
     double viscosity; ///< μ of the liquid, Pa·s
     VectorField& pressure_force;
     VectorField& viscous_force;
-    ScalarField& wall_power; ///< W
+    VectorField& wall_force; ///< of pressure_force, what walls and solids press, N
 
     using Near = Of<Lanes, quantity::Pressure, quantity::Velocity>;
     using Far = Of<Real, quantity::Liquid, quantity::Pressure, quantity::Velocity>;
     struct Sum
     {
-        VectorLanes push{}, drag{};
-        Lanes wall_power{};
+        VectorLanes push{}, drag{}, walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -41,9 +40,7 @@ struct FreeSurfaceMomentum
     {
         sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
         sum.drag += pair.volume_gradient_over_r * (i.velocity - broadcast(j.velocity));
-        if (j.liquid == 0)
-            sum.wall_power -=
-                dot(Lanes(j.pressure) * i.velocity + i.pressure * broadcast(j.velocity), pair.volume_gradient);
+        if (j.liquid == 0) sum.walls -= Lanes(j.pressure) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -51,7 +48,7 @@ struct FreeSurfaceMomentum
         const Lanes volume_i = lanes(volume, cluster.first);
         store_if(pressure_force, cluster, volume_i * sum.push, liquid);
         store_if(viscous_force, cluster, (Lanes(2.0 * viscosity) * volume_i) * sum.drag, liquid);
-        store_if(wall_power, cluster, volume_i * sum.wall_power, liquid);
+        store_if(wall_force, cluster, volume_i * sum.walls, liquid);
     }
 };
 

@@ -19,7 +19,7 @@ inline double exchange_balance(double mass, double lattice_mass)
 ///
 ///   dm_i/dt      = V_i Σ_j (ρ_j u_ij + ρ_i w_ij)                           [kg/s]
 ///   dρ_i/dt      = Σ_j [ρ_j u_ij + ρ_i w_ij − ρ_i (u_ij − w_ij)]           [kg/(m³ s)]
-///   m_i dv_i/dt += V_i Σ_j ρ_j u_ij (v_j − v_i)                            [N]
+///   m_i dv_i/dt  = V_i Σ_j ρ_j u_ij (v_j − v_i)                            [N]
 ///   d(m_i h_i)/dt = V_i Σ_j (h_j ρ_j u_ij + h_i ρ_i w_ij)                  [W]
 ///
 /// Each pair's exchange is multiplied by min(b_i, b_j) (exchange_balance): no particle gains or loses more than a fifth

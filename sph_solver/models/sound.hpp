@@ -16,7 +16,7 @@ namespace cupel::inline CUPEL_ENGINE
 ///
 /// The surface's band, where its load is carried into the liquid, has the trace of the corrected gradient,
 /// ρ_i Σ_j V_j (v_i − v_j)·L_i ∇W_ij, with the matrices L of the last whole step.
-struct ContinuityOfSound
+template <bool with_walls> struct ContinuityOfSound
 {
     Mobility mobility;
     const ScalarField& density;
@@ -24,6 +24,7 @@ struct ContinuityOfSound
     CorrectionMatrix correction;
     const ScalarField* surface_delta; ///< above zero in the surface's band; null where the load is not carried
     ScalarField& density_rate;
+    ScalarField& by_walls; ///< as in Continuity
     ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
     struct Near
@@ -33,10 +34,11 @@ struct ContinuityOfSound
         bool in_band; ///< whether any of the cluster is
         Symmetric3<Lanes> correction;
     };
-    using Far = Of<Real, quantity::Velocity>;
+    using Far =
+        std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Velocity>, Of<Real, quantity::Velocity>>;
     struct Sum
     {
-        Lanes divergence{}, corrected{};
+        Lanes divergence{}, corrected{}, walls{};
     };
 
     bool is_in_band(Index k) const { return surface_delta && mobility.weight[k] != 0.0 && (*surface_delta)[k] > 0.0; }
@@ -51,57 +53,58 @@ struct ContinuityOfSound
                                lanes(correction.yy, first), lanes(correction.yz, first), lanes(correction.zz, first)};
         return near;
     }
-    Far far(Index j) const { return {real(velocity[j])}; }
+    Far far(Index j) const
+    {
+        if constexpr (with_walls)
+            return {real(mobility.weight[j]), real(velocity[j])};
+        else
+            return {real(velocity[j])};
+    }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const VectorLanes change = i.velocity - broadcast(j.velocity);
         sum.divergence += pair.volume_gradient_over_r * dot(change, pair.offset);
         if (i.in_band) sum.corrected += dot(change, i.correction * pair.volume_gradient);
+        if constexpr (with_walls)
+            if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const Lanes partner = i.density * sum.divergence, corrected = i.density * sum.corrected;
+        const Lanes partner = i.density * sum.divergence, corrected = i.density * sum.corrected,
+                    walls = i.density * sum.walls;
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index k = cluster.first + lane;
             if (mobility.weight[k] == 0.0) continue;
             density_rate[k] = is_in_band(k) ? corrected[lane] : partner[lane];
             if (replaced) (*replaced)[k] = density_rate[k] - partner[lane];
+            by_walls[k] = walls[lane];
         }
     }
 };
 
-/// The second of them; its power at walls and solids as in FreeSurfaceMomentum, where there are any.
+/// The second of them; what walls and solids press as in FreeSurfaceMomentum, where there are any.
 template <bool with_walls> struct PressureForce
 {
     Mobility mobility;
     const ScalarField& volume;
     const ScalarField& pressure;
-    const VectorField& velocity;
     VectorField& pressure_force;
-    ScalarField& wall_power; ///< W
+    VectorField& wall_force; ///< N
 
-    using Near = std::conditional_t<with_walls, Of<Lanes, quantity::Pressure, quantity::Velocity>,
-                                    Of<Lanes, quantity::Pressure>>;
-    using Far = std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Pressure, quantity::Velocity>,
-                                   Of<Real, quantity::Pressure>>;
+    using Near = Of<Lanes, quantity::Pressure>;
+    using Far =
+        std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Pressure>, Of<Real, quantity::Pressure>>;
     struct Sum
     {
-        VectorLanes push{};
-        Lanes wall_power{};
+        VectorLanes push{}, walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const
-    {
-        if constexpr (with_walls)
-            return {lanes(pressure, first), lanes(velocity, first)};
-        else
-            return {lanes(pressure, first)};
-    }
+    Near near(Index first) const { return {lanes(pressure, first)}; }
     Far far(Index j) const
     {
         if constexpr (with_walls)
-            return {real(mobility.weight[j]), real(pressure[j]), real(velocity[j])};
+            return {real(mobility.weight[j]), real(pressure[j])};
         else
             return {real(pressure[j])};
     }
@@ -109,16 +112,14 @@ template <bool with_walls> struct PressureForce
     {
         sum.push -= ((i.pressure + j.pressure) * pair.volume_gradient_over_r) * pair.offset;
         if constexpr (with_walls)
-            if (j.liquid == 0)
-                sum.wall_power -=
-                    dot(Lanes(j.pressure) * i.velocity + i.pressure * broadcast(j.velocity), pair.volume_gradient);
+            if (j.liquid == 0) sum.walls -= Lanes(j.pressure) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
         const Lanes volume_i = lanes(volume, cluster.first);
         store_if(pressure_force, cluster, volume_i * sum.push, liquid);
-        store_if(wall_power, cluster, volume_i * sum.wall_power, liquid);
+        store_if(wall_force, cluster, volume_i * sum.walls, liquid);
     }
 };
 

@@ -51,6 +51,7 @@ TEST_P(FlowModels, DensityFollowsThePacking)
                          VelocityGradientFields::register_in(particles),
                          nullptr,
                          rate,
+                         particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"}),
                          nullptr});
     // Σ_j m_j W_ij a moment earlier and later.
     const double moment = 1e-5;
@@ -72,6 +73,7 @@ TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeave
     Block block(GetParam(), 12, 0.25);
     Particles& particles = block.particles;
     ScalarField& rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    ScalarField& by_walls = particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"});
     ScalarField& delta = particles.add_scalar({"delta", "1/m"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     const auto greatest_rate = [&](double expansion, const ScalarField* surface_delta) {
@@ -82,7 +84,7 @@ TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeave
         }
         block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
         block.run(Continuity{
-            {block.mobility}, particles.density, particles.velocity, gradient, surface_delta, rate, nullptr});
+            {block.mobility}, particles.density, particles.velocity, gradient, surface_delta, rate, by_walls, nullptr});
         double greatest = 0.0;
         for (Index i = 0; i < particles.count(); ++i)
             greatest = std::max(greatest, std::abs(rate[i] + expansion * particles.density[i]));
@@ -152,7 +154,7 @@ TEST_P(FlowModels, PressureAndViscosityConserveMomentum)
     Block block(GetParam());
     VectorField& pressure_force = block.particles.add_vector({"pressure_force", "N"});
     VectorField& viscous_force = block.particles.add_vector({"viscous_force", "N"});
-    ScalarField& wall_power = block.particles.add_scalar({"wall_power", "W"});
+    VectorField& wall_force = block.particles.add_vector({"wall_force", "N"});
     for (Index i = 0; i < block.particles.count(); ++i) {
         const Vector p = block.particles.position[i];
         block.particles.pressure[i] = std::sin(p.x) * std::cos(2.0 * p.z);
@@ -165,7 +167,7 @@ TEST_P(FlowModels, PressureAndViscosityConserveMomentum)
                                   0.1,
                                   pressure_force,
                                   viscous_force,
-                                  wall_power});
+                                  wall_force});
     for (const VectorField* force : {&pressure_force, &viscous_force}) {
         Vector total{};
         double size = 0.0;
@@ -185,8 +187,9 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
     VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
     VectorField& viscous_force = particles.add_vector({"viscous_force", "N"});
     const VelocityGradientFields velocity_gradient = VelocityGradientFields::register_in(particles);
-    ScalarField& wall_power = particles.add_scalar({"wall_power", "W"});
+    VectorField& wall_force = particles.add_vector({"wall_force", "N"});
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
+    ScalarField& by_walls = particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"});
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
         particles.pressure[i] = std::sin(p.x) * std::cos(2.0 * p.z);
@@ -200,13 +203,14 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
                                       0.1,
                                       pressure_force,
                                       viscous_force,
-                                      wall_power});
+                                      wall_force});
         block.run(Continuity{{block.mobility},
                              particles.density,
                              particles.velocity,
                              velocity_gradient,
                              nullptr,
                              density_rate,
+                             by_walls,
                              nullptr});
         double sum = 0.0, walls = 0.0;
         for (Index i = 0; i < particles.count(); ++i) {
@@ -214,7 +218,8 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
             // Elastic energy rises by p V for each unit of ln ρ.
             sum += dot(pressure_force[i], particles.velocity[i]) +
                    particles.pressure[i] * particles.volume[i] * density_rate[i] / particles.density[i];
-            walls += wall_power[i];
+            walls += dot(wall_force[i], particles.velocity[i]) +
+                     particles.pressure[i] * particles.volume[i] * by_walls[i] / particles.density[i];
         }
         return std::pair{sum, walls};
     };
@@ -257,7 +262,7 @@ ViscousPower viscous_power(int dimensions, double jitter)
     Particles& particles = block.particles;
     VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
     VectorField& force = particles.add_vector({"force", "N"});
-    ScalarField& wall_power = particles.add_scalar({"wall_power", "W"});
+    VectorField& wall_force = particles.add_vector({"wall_force", "N"});
     ScalarField& no_pressure = particles.add_scalar({"no_pressure", "Pa"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     for (Index i = 0; i < particles.count(); ++i)
@@ -270,7 +275,7 @@ ViscousPower viscous_power(int dimensions, double jitter)
     };
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     block.run(FreeSurfaceMomentum{
-        {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_power});
+        {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_force});
     ViscousPower result{power(), 0.0, {}};
     block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, nullptr, force});
     result.whole = power();
