@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -19,12 +18,6 @@ constexpr Index clusters_per_chunk = 256;
 /// A refresh pays while it concerns less than this share of the clusters, and while the lists of what moves, whose
 /// clusters spread, have not grown by more than this factor since the build. Both found by timing, neither is sharp.
 constexpr double greatest_share = 0.4, greatest_growth = 1.3;
-
-/// Of `count` columns the one that a place is in, or the outermost; the first where it is no number.
-Index column(double place, Index count)
-{
-    return place > 0.0 ? static_cast<Index>(std::min(place, static_cast<double>(count - 1))) : 0;
-}
 
 Vector least(const Vector& a, const Vector& b)
 {
@@ -43,15 +36,6 @@ NeighbourList::NeighbourList(double support, double skin, double spacing, int di
       images_(std::move(images))
 {}
 
-Index NeighbourList::column_x(double x) const
-{
-    return column((x - origin_.x) / column_width_, columns_x_);
-}
-Index NeighbourList::column_y(double y) const
-{
-    return column((y - origin_.y) / column_width_, columns_y_);
-}
-
 void NeighbourList::build(Particles& particles)
 {
     if (images_.any())
@@ -69,80 +53,6 @@ void NeighbourList::build(Particles& particles)
         built_z_[k] = particles.position.z[k];
     }
     ++builds_;
-}
-
-void NeighbourList::sort_into_columns(Particles& particles)
-{
-    const Index count = particles.count();
-    const auto& position = particles.position;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double x0 = infinity, y0 = infinity, z0 = infinity, x1 = -infinity, y1 = -infinity, z1 = -infinity;
-#pragma omp parallel for schedule(static) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1) if (count > 8192)
-    for (Index i = 0; i < count; ++i) {
-        const Vector p = position[i];
-        x0 = std::min(x0, p.x);
-        y0 = std::min(y0, p.y);
-        z0 = std::min(z0, p.z);
-        x1 = std::max(x1, p.x);
-        y1 = std::max(y1, p.y);
-        z1 = std::max(z1, p.z);
-    }
-    lower_ = origin_ = {x0, y0, z0};
-    upper_ = {x1, y1, z1};
-    const double columns_x = std::floor((upper_.x - lower_.x) / column_width_) + 1.0;
-    const double columns_y = std::floor((upper_.y - lower_.y) / column_width_) + 1.0;
-    if (!(columns_x * columns_y < 1e8))
-        throw std::runtime_error("particles are spread over more than 10^8 columns: the run has blown up");
-    columns_x_ = static_cast<Index>(columns_x);
-    columns_y_ = static_cast<Index>(columns_y);
-
-    const auto columns = static_cast<std::size_t>(columns_x_) * static_cast<std::size_t>(columns_y_);
-    std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
-#pragma omp parallel for schedule(static) if (count > 8192)
-    for (Index i = 0; i < count; ++i) {
-        const Vector p = position[i];
-        column_of[static_cast<std::size_t>(i)] = static_cast<Index>(column_at(column_x(p.x), column_y(p.y)));
-    }
-    for (const Index column : column_of)
-        ++begin[static_cast<std::size_t>(column) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<Index> order(static_cast<std::size_t>(count)), next(begin.begin(), begin.end() - 1);
-    for (Index i = 0; i < count; ++i)
-        order[static_cast<std::size_t>(next[static_cast<std::size_t>(column_of[static_cast<std::size_t>(i)])]++)] = i;
-
-#pragma omp parallel for schedule(dynamic, 64)
-    for (std::size_t column = 0; column < columns; ++column)
-        // Ties in height are settled by identity, so that the order never depends on what it was before.
-        std::sort(order.begin() + begin[column], order.begin() + begin[column + 1], [&](Index a, Index b) {
-            const double za = position.z[static_cast<std::size_t>(a)];
-            const double zb = position.z[static_cast<std::size_t>(b)];
-            return za != zb ? za < zb
-                            : particles.identity[static_cast<std::size_t>(a)] <
-                                  particles.identity[static_cast<std::size_t>(b)];
-        });
-    particles.permute(order);
-    cut_clusters(begin);
-}
-
-void NeighbourList::cut_clusters(const std::vector<Index>& first_of_column)
-{
-    const std::size_t columns = first_of_column.size() - 1;
-    clusters_.clear();
-    first_cluster_of_column_.assign(columns + 1, 0);
-    cluster_of_.resize(static_cast<std::size_t>(first_of_column.back()));
-    for (std::size_t column = 0; column < columns; ++column) {
-        for (Index first = first_of_column[column]; first < first_of_column[column + 1]; first += lane_count) {
-            const Index count = std::min<Index>(lane_count, first_of_column[column + 1] - first);
-            std::fill_n(cluster_of_.begin() + first, count, static_cast<Index>(clusters_.size()));
-            clusters_.push_back({first, count});
-        }
-        first_cluster_of_column_[column + 1] = static_cast<Index>(clusters_.size());
-    }
-    is_loose_.assign(clusters_.size(), 0);
-    loose_.clear();
-    first_loose_of_column_.assign(columns + 1, 0);
-    loose_of_column_.clear();
-    own_lists_.assign(clusters_.size(), {});
 }
 
 NeighbourList::Box NeighbourList::box_of(const Particles& particles, Index c) const

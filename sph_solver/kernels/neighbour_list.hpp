@@ -139,8 +139,13 @@ private:
     template <class Visit> void for_each_cluster_near(const Box& box, const Visit& visit) const;
     Box box_of(const Particles& particles, Index c) const;
     static Box image_of(const Box& box, const Image& image);
-    Index column_x(double x) const;
-    Index column_y(double y) const;
+    Index column_x(double x) const { return column((x - origin_.x) / column_width_, columns_x_); }
+    Index column_y(double y) const { return column((y - origin_.y) / column_width_, columns_y_); }
+    /// Of `count` columns the one that a place is in, or the outermost; the first where it is no number.
+    static Index column(double place, Index count)
+    {
+        return place > 0.0 ? static_cast<Index>(std::min(place, static_cast<double>(count - 1))) : 0;
+    }
     /// Columns are numbered in strips of a few along x, each of them row after row along y: what a cluster sees was
     /// seen not long before, and is still in the nearer caches.
     std::size_t column_at(Index cx, Index cy) const

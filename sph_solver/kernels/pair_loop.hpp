@@ -210,7 +210,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     {
         const FlushedToZero no_denormals;
         static thread_local NeighboursOfCluster<Record> neighbours;
-#pragma omp for schedule(dynamic, share)
+#pragma omp for schedule(guided, share)
         for (Index k = 0; k < count; ++k) {
             const Index c = clusters[static_cast<std::size_t>(k)];
             const Cluster cluster = list.cluster(c);

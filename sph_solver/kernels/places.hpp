@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "kernels/field_lanes.hpp"
 #include "kernels/neighbour_list.hpp"
 
@@ -8,50 +12,69 @@ namespace cupel::inline CUPEL_ENGINE
 
 #if CUPEL_REAL_IS_FLOAT
 
-/// A position as the float nearest to it and what that float leaves out. The difference of two such floats that are
-/// near each other is exact, so that the offset of a pair has the six digits of float wherever it lies: positions in
-/// float alone would lose one digit for each power of ten between spacing and domain.
-template <class Scalar> struct PlaceOf
+/// A position as a whole number of parts, of which the space that the particles span has 2^31 along its longest side.
+/// The difference of two is exact, so that the offset of a pair has the digits of float wherever it lies (a part is
+/// 10^-7 spacings in a space of 200), in half the memory that a float and its remainder would take.
+struct Place
 {
-    VectorOf<Scalar> nearest, rest;
+    std::int32_t x, y, z;
 };
-using Place = PlaceOf<float>;
-using PlaceLanes = PlaceOf<Lanes>;
+struct PlaceLanes
+{
+    using Register = std::int32_t __attribute__((vector_size(64)));
+    Register x, y, z;
+    Lanes part; ///< m
+};
 
 inline VectorLanes offset_between(const PlaceLanes& i, const Place& j)
 {
-    return (i.nearest - broadcast(j.nearest)) + (i.rest - broadcast(j.rest));
+    const auto along = [&](const PlaceLanes::Register& here, std::int32_t there) {
+        return Lanes(__builtin_convertvector(here - there, Lanes::Register)) * i.part;
+    };
+    return {along(i.x, j.x), along(i.y, j.y), along(i.z, j.z)};
 }
 
-/// Positions as the pair loop sees them, from the middle of the space that the particles span.
+/// Positions as the pair loop sees them, from the middle of the space that the particles span. It reaches a support
+/// beyond where they were when they were listed: none has moved so far since.
 class Places
 {
 public:
     Places(const NeighbourList& list, const VectorField& position)
         : position_(position), middle_(0.5 * (list.lower() + list.upper()))
-    {}
+    {
+        const Vector extent = list.upper() - list.lower();
+        part_ = (std::max({extent.x, extent.y, extent.z}) + 2.0 * list.support()) / (2.0 * most);
+    }
 
     Place operator()(Index i) const
     {
-        const Vector p = position_[i] - middle_;
-        const VectorOf<float> nearest = real(p);
-        return {nearest, real(p - Vector{nearest.x, nearest.y, nearest.z})};
+        const Vector p = (1.0 / part_) * (position_[i] - middle_);
+        return {whole(p.x), whole(p.y), whole(p.z)};
     }
     PlaceLanes of_cluster(Index first) const
     {
-        Lanes::Register part[6];
+        PlaceLanes places;
+        places.part = Lanes(part_);
         for (int lane = 0; lane < lane_count; ++lane) {
             const Place p = (*this)(first + lane);
-            const float values[6] = {p.nearest.x, p.nearest.y, p.nearest.z, p.rest.x, p.rest.y, p.rest.z};
-            for (int k = 0; k < 6; ++k)
-                part[k][lane] = values[k];
+            places.x[lane] = p.x;
+            places.y[lane] = p.y;
+            places.z[lane] = p.z;
         }
-        return {{Lanes(part[0]), Lanes(part[1]), Lanes(part[2])}, {Lanes(part[3]), Lanes(part[4]), Lanes(part[5])}};
+        return places;
     }
 
 private:
+    static constexpr double most = 1 << 30;
+    /// Of what is no number one end: guards look at positions, not at these.
+    static std::int32_t whole(double parts)
+    {
+        return parts > -most ? static_cast<std::int32_t>(std::lrint(std::min(parts, most))) : -(1 << 30);
+    }
+
     const VectorField& position_;
     Vector middle_;
+    double part_; ///< m
 };
 
 #else
