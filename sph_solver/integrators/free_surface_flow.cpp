@@ -225,7 +225,7 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
         sum_with_gradient(ShiftingVelocity{
             mobility_, scene_.definition.numerics.shifting, h, 0.1 * parameters_.equation_of_state.sound_speed,
             kernel_(scene_.spacing).value, 0.05 / h, velocity_gradient_, particles_.mass,
-            rest_density_ * scene_.particle_volume(), surface_->fields().companions, surface_->fewest_companions(),
+            rest_density_ * scene_.particle_volume, surface_->fields().companions, surface_->fewest_companions(),
             &surface_->fields().colour_gradient, *shift_});
     }
     neighbourhood.for_each_moving([&](Index i) {

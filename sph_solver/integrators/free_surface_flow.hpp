@@ -71,7 +71,7 @@ private:
 template <class SumWith>
 void FreeSurfaceFlow::sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with)
 {
-    const double lattice_mass = rest_density_ * scene_.particle_volume();
+    const double lattice_mass = rest_density_ * scene_.particle_volume;
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
     const auto exchange = [&](auto with_enthalpy) {

@@ -146,7 +146,7 @@ void TwoPhaseFlow::compress(const Neighbourhood& neighbourhood, double time_step
 void TwoPhaseFlow::compress_walls(const Neighbourhood& neighbourhood, bool at_start, double time_step)
 {
     const NeighbourList& list = neighbourhood.list();
-    const double lattice_volume = scene_.particle_volume();
+    const double lattice_volume = scene_.particle_volume;
     double change = 0.0, transported = 0.0;
     for (const Index c : neighbourhood.standing()) {
         const Cluster cluster = list.cluster(c);

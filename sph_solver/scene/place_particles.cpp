@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <random>
 
@@ -192,6 +193,41 @@ void disturb(const Case& definition, std::vector<Placement>& placements)
     }
 }
 
+/// Volume of a ball (in two dimensions of a disc, for a breadth of 1 m), less what top and bottom of the domain cut
+/// off; none where its sides cut it.
+std::optional<double> volume_in_domain(const Body& ball, const Domain& domain, int dimensions)
+{
+    const double radius = ball.radius;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if ((axis == 0 || dimensions == 3) &&
+            (ball.center[axis] - radius < domain.lower[axis] || ball.center[axis] + radius > domain.upper[axis]))
+            return std::nullopt;
+    const auto below = [&](double z) {
+        z = std::clamp(z - ball.center[2], -radius, radius);
+        return dimensions == 2 ? z * std::sqrt(radius * radius - z * z) + radius * radius * std::asin(z / radius)
+                               : std::numbers::pi * z * (radius * radius - z * z / 3.0);
+    };
+    return below(domain.upper[2]) - below(domain.lower[2]);
+}
+
+/// A ball that is cut from a lattice holds too much or too little: at 20 spacings a diameter 0.6 % too much, which
+/// makes it oscillate 0.4 % too slowly. A drop with nothing around it is therefore swollen or shrunk about its centre
+/// until its particles hold its volume. Returns the volume of each.
+double fit_volume(const Case& definition, bool two_phase, double lattice_volume, std::vector<Placement>& placements)
+{
+    const Body& body = definition.bodies.front();
+    if (two_phase || definition.bodies.size() != 1 || body.solid || body.shape != BodyShape::sphere)
+        return lattice_volume;
+    const auto volume = volume_in_domain(body, definition.domain, definition.dimensions);
+    if (!volume) return lattice_volume;
+    const double share = *volume / static_cast<double>(placements.size());
+    const double scale = std::pow(share / lattice_volume, 1.0 / definition.dimensions);
+    const Vector center = to_vector(body.center);
+    for (Placement& placement : placements)
+        placement.position = center + scale * (placement.position - center);
+    return share;
+}
+
 /// Wall particles fill the shell of lattice points around the domain that lie behind walls only.
 void place_walls(const Case& definition, const Lattice& lattice, std::vector<Placement>& placements)
 {
@@ -254,11 +290,6 @@ void unsettle_lattice(Particles& particles, double spacing, bool flat)
 
 } // namespace
 
-double Scene::particle_volume() const
-{
-    return dimensions == 2 ? spacing * spacing : spacing * spacing * spacing;
-}
-
 Scene place_particles(const Case& definition)
 {
     if (definition.bodies.empty()) throw CaseError("body: the case has no body; add one [[body]]");
@@ -305,6 +336,8 @@ Scene place_particles(const Case& definition)
     if (placements.empty())
         throw CaseError("resolution: no particle fits into any body at a spacing of " +
                         std::to_string(definition.spacing) + " m; choose a finer one");
+    const double lattice_volume = std::pow(scene.spacing, scene.dimensions);
+    scene.particle_volume = fit_volume(definition, scene.two_phase, lattice_volume, placements);
     disturb(definition, placements);
     // A scene that is solid to its borders needs no walls: nothing molten reaches them.
     if (any_fluid) place_walls(definition, lattice, placements);
@@ -326,7 +359,6 @@ Scene place_particles(const Case& definition)
         return std::array<int, 3>{index(p.x, lattice.lower.x), flat ? 0 : index(p.y, lattice.lower.y),
                                   index(p.z, lattice.lower.z)};
     };
-    const double volume = scene.particle_volume();
     for (Index i = 0; i < particles.count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Placement& placement = placements[k];
@@ -336,6 +368,7 @@ Scene place_particles(const Case& definition)
         if (definition.initial.velocity && placement.kind == Kind::fluid)
             particles.velocity.set(i, to_vector(definition.initial.velocity->velocity(to_array(placement.position))));
         const double density = scene.materials[placement.material].density;
+        const double volume = placement.kind == Kind::wall ? lattice_volume : scene.particle_volume;
         particles.density[i] = density;
         particles.volume[i] = volume;
         particles.mass[i] = density * volume;

@@ -21,7 +21,7 @@ struct Scene
     int dimensions = 3;
     bool two_phase = false; ///< the surrounding has particles of its own
 
-    double particle_volume() const; ///< spacing³ (spacing² · 1 m in two dimensions), m³
+    double particle_volume = 0; ///< spacing³ (spacing² · 1 m in two dimensions), or what a ball's share is, m³
 };
 
 /// Fills the domain's bodies with particles on a cubic lattice, the surrounding as well where it is resolved, and puts
