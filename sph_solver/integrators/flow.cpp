@@ -41,10 +41,10 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     const bool loads = with_tension_ || with_recoil_;
-    // Thin edges at walls and films of melt among its solid are a few particles: too little for a field to be carried
-    // in.
+    // Films of melt among its solid are a few particles: too little for a field to be carried in.
     const bool continuum_force = scene.definition.numerics.surface_load == "continuum_force";
-    band_bears_load_ = loads && (continuum_force || (!scene.two_phase && scene.definition.requires_physics("wetting")));
+    band_bears_load_ = loads && (continuum_force || (!scene.two_phase && scene.definition.requires_physics("wetting") &&
+                                                     scene.definition.requires_physics("melting")));
     if (loads || with_marangoni_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
                                                     loads && !scene.two_phase && !band_bears_load_);

@@ -254,7 +254,12 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         const double share = share_of_surface(surface, i, h);
         (*carried_load_)[i] = (*carried_mean_)[i];
         if (share == 0.0) return;
-        const double at_depth = (*load_)[i] - surface.depth[i] * dot((*carried_gradient_)[i], surface.normal[i]);
+        // Of a wave that is resolved a load falls off by less than itself within the band. In a thin edge, whose two
+        // sides see each other, it would run away.
+        const double greatest = std::abs((*load_)[i]);
+        const double fall =
+            std::clamp(surface.depth[i] * dot((*carried_gradient_)[i], surface.normal[i]), -greatest, greatest);
+        const double at_depth = (*load_)[i] - fall;
         (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
     });
     for_each_pair(
