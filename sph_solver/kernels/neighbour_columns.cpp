@@ -41,7 +41,8 @@ void NeighbourList::sort_into_columns(Particles& particles)
     std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
     std::vector<Index> order(static_cast<std::size_t>(count));
     // Each thread counts a share of the particles, and later puts them into its share of each column.
-    const Index shares = static_cast<std::size_t>(count) > 8 * columns ? std::min(omp_get_max_threads(), 64) : 1;
+    const bool worth_it = count > 8192 && static_cast<std::size_t>(count) > 8 * columns;
+    const Index shares = worth_it ? std::min(omp_get_max_threads(), 64) : 1;
     std::vector<std::vector<Index>> next(static_cast<std::size_t>(shares));
     const auto for_each_of = [&](Index share, const auto& visit) {
         const std::int64_t all = count;

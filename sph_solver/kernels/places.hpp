@@ -43,7 +43,8 @@ public:
         : position_(position), middle_(0.5 * (list.lower() + list.upper()))
     {
         const Vector extent = list.upper() - list.lower();
-        part_ = (std::max({extent.x, extent.y, extent.z}) + 2.0 * list.support()) / (2.0 * most);
+        // A float, so that lengths in parts lose nothing when they are turned back.
+        part_ = real((std::max({extent.x, extent.y, extent.z}) + 2.0 * list.support()) / (2.0 * most));
     }
 
     Place operator()(Index i) const

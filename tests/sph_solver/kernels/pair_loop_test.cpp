@@ -236,6 +236,26 @@ TEST(NeighbourList, OrderDependsOnPositionsAndIdentitiesAlone)
     EXPECT_EQ(once.identity, first);
 }
 
+TEST(NeighbourList, OrderDoesNotDependOnTheNumberOfThreads)
+{
+    // Enough of them for each thread to sort a share.
+    const auto listed = [](int threads) {
+        omp_set_num_threads(threads);
+        Particles particles = jittered_lattice(22, 3, 0.2);
+        NeighbourList list(support, 0.3, 1.0, 3);
+        list.build(particles);
+        std::vector<Index> clusters;
+        for (Index c = 0; c < list.cluster_count(); ++c)
+            clusters.insert(clusters.end(), {list.cluster(c).first, list.cluster(c).count});
+        for (Index i = 0; i < particles.count(); ++i)
+            EXPECT_LT(i - list.cluster(list.cluster_of(i)).first, list.cluster(list.cluster_of(i)).count);
+        return std::pair{particles.identity, clusters};
+    };
+    const auto one = listed(1), three = listed(3);
+    EXPECT_EQ(one.first, three.first);
+    EXPECT_EQ(one.second, three.second);
+}
+
 TEST(NeighbourList, SpreadParticlesAreAnErrorNotAnAllocation)
 {
     Particles particles = jittered_lattice(3, 3, 0.0);
