@@ -5,6 +5,7 @@
 #include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
+#include "surface_inertia.hpp"
 #include "viscous_stress.hpp"
 
 namespace cupel
@@ -69,20 +70,29 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
     if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, surface());
 
     const surfaceScalarField forces(
-        face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr));
+        face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr) * mesh.magSf());
     const volScalarField A("A", momentum.A());
-    const surfaceScalarField rAUf("rAUf", 1 / fvc::interpolate(A));
-    const surfaceScalarField inertia(own_history(flow, viscous_stress.damping()()));
+    surfaceScalarField resistance(fvc::interpolate(A)), history(own_history(flow, viscous_stress.damping()()));
+    autoPtr<SurfaceInertia> below_surface;
+    if (scene.physics.surface_tension) {
+        below_surface.reset(new SurfaceInertia(scene, fields, geometry));
+        const surfaceScalarField excess(below_surface->excess() / mesh.time().deltaT());
+        resistance -= excess;
+        history -= excess * phi.oldTime();
+    }
+    const surfaceScalarField rAUf("rAUf", 1 / resistance);
+    surfaceScalarField push(forces); // less what the surface's cells owe to the faces below, as far as it is known
+    if (below_surface.valid()) push = forces - below_surface->carried(flow.acceleration());
     const label correctors = scene.numerics.get<label>("pressure_correctors");
     if (scene.numerics.get<bool>("momentum_predictor"))
-        solve(momentum == A * fvc::reconstruct(rAUf * (forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
+        solve(momentum == A * fvc::reconstruct(rAUf * (push - fvc::snGrad(p_rgh) * mesh.magSf())));
 
     for (label corrector = 1; corrector <= correctors; ++corrector) {
         const volVectorField H(momentum.H());
         const volVectorField HbyA(constrainHbyA(H / A, U, p_rgh));
-        surfaceScalarField predicted_flux("predicted_flux", rAUf * (fvc::flux(A * HbyA) + inertia));
+        surfaceScalarField predicted_flux("predicted_flux", rAUf * (fvc::flux(A * HbyA) + history));
         adjustPhi(predicted_flux, U, p_rgh);
-        const surfaceScalarField force_flux(forces * rAUf * mesh.magSf());
+        const surfaceScalarField force_flux(rAUf * push);
         predicted_flux += force_flux;
         constrainPressure(p_rgh, U, predicted_flux, rAUf);
 
@@ -94,8 +104,11 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         U = HbyA + fvc::reconstruct(force_flux - pressure.flux());
         U.correctBoundaryConditions();
         if (!std::isfinite(residual)) break; // the guards say where
+        if (below_surface.valid()) {
+            flow.acceleration() = (phi - phi.oldTime()) / mesh.time().deltaT();
+            push = forces - below_surface->carried(flow.acceleration());
+        }
     }
-    if (flow.acceleration.valid()) flow.acceleration() = (phi - phi.oldTime()) / mesh.time().deltaT();
     U += fvc::reconstruct(phi - fvc::flux(flow.density * U) / fvc::interpolate(flow.density));
     U.correctBoundaryConditions();
 }
