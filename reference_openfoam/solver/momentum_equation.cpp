@@ -5,6 +5,7 @@
 #include "momentum_equation.hpp"
 #include "mushy_drag.hpp"
 #include "recoil_pressure.hpp"
+#include "surface_inertia.hpp"
 #include "viscous_stress.hpp"
 
 namespace cupel
@@ -69,20 +70,32 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
     if (scene.physics.marangoni) momentum -= marangoni_force(scene, fields, surface());
 
     const surfaceScalarField forces(
-        face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr));
+        face_forces(scene, fields, geometry, surface.valid() ? surface.operator->() : nullptr) * mesh.magSf());
     const volScalarField A("A", momentum.A());
-    const surfaceScalarField rAUf("rAUf", 1 / fvc::interpolate(A));
-    const surfaceScalarField inertia(own_history(flow, viscous_stress.damping()()));
+    const surfaceScalarField resistance(fvc::interpolate(A));
+    const dimensionedScalar step(mesh.time().deltaT());
+    // surface_inertia.hpp: resistance that faces do not have, forces less what moves as the faces across do, and what
+    // the cells, which keep their whole mass, are given for a face's own acceleration
+    surfaceScalarField excess("excess", 0 * resistance), push(forces), own_push(0 * forces);
+    autoPtr<SurfaceInertia> below_surface;
+    if (scene.physics.surface_tension) {
+        below_surface.reset(new SurfaceInertia(scene, fields, geometry));
+        excess = below_surface->excess() / step;
+        push = forces - below_surface->carried(flow.acceleration());
+        own_push = excess * step * flow.acceleration();
+    }
+    const surfaceScalarField rAUf("rAUf", 1 / (resistance - excess));
+    const surfaceScalarField history(own_history(flow, viscous_stress.damping()()) - excess * phi.oldTime());
     const label correctors = scene.numerics.get<label>("pressure_correctors");
     if (scene.numerics.get<bool>("momentum_predictor"))
-        solve(momentum == A * fvc::reconstruct(rAUf * (forces - fvc::snGrad(p_rgh)) * mesh.magSf()));
+        solve(momentum == A * fvc::reconstruct((push + own_push - fvc::snGrad(p_rgh) * mesh.magSf()) / resistance));
 
     for (label corrector = 1; corrector <= correctors; ++corrector) {
         const volVectorField H(momentum.H());
         const volVectorField HbyA(constrainHbyA(H / A, U, p_rgh));
-        surfaceScalarField predicted_flux("predicted_flux", rAUf * (fvc::flux(A * HbyA) + inertia));
+        surfaceScalarField predicted_flux("predicted_flux", rAUf * (fvc::flux(A * HbyA) + history));
         adjustPhi(predicted_flux, U, p_rgh);
-        const surfaceScalarField force_flux(forces * rAUf * mesh.magSf());
+        const surfaceScalarField force_flux(rAUf * push);
         predicted_flux += force_flux;
         constrainPressure(p_rgh, U, predicted_flux, rAUf);
 
@@ -91,11 +104,15 @@ void advance_momentum(const Scene& scene, Fields& fields, const InterfaceGeometr
         const scalar residual = pressure.solve(mesh.solver(p_rgh.select(corrector == correctors))).initialResidual();
 
         phi = predicted_flux - pressure.flux();
-        U = HbyA + fvc::reconstruct(force_flux - pressure.flux());
+        own_push = excess * (phi - phi.oldTime());
+        U = HbyA + fvc::reconstruct(((force_flux - pressure.flux()) / rAUf + own_push) / resistance);
         U.correctBoundaryConditions();
         if (!std::isfinite(residual)) break; // the guards say where
+        if (below_surface.valid()) {
+            flow.acceleration() = (phi - phi.oldTime()) / step;
+            push = forces - below_surface->carried(flow.acceleration());
+        }
     }
-    if (flow.acceleration.valid()) flow.acceleration() = (phi - phi.oldTime()) / mesh.time().deltaT();
     U += fvc::reconstruct(phi - fvc::flux(flow.density * U) / fvc::interpolate(flow.density));
     U.correctBoundaryConditions();
 }

@@ -1,5 +1,7 @@
 #include "viscous_stress.hpp"
 
+#include "localMin.H"
+
 namespace cupel
 {
 namespace
@@ -25,7 +27,9 @@ tmp<volVectorField> rates_of_stretch(const surfaceScalarField& flux)
 
 ViscousStress::ViscousStress(const Scene& scene, const Fields& fields)
     : mesh_(fields.mesh), flux_(fields.flow->flux), viscosity_(mixture_viscosity(scene, fields.fraction)),
-      on_faces_(fvc::interpolate(viscosity_))
+      on_faces_(fvc::interpolate(viscosity_)),
+      explicit_(dimensionedScalar("half_of_primary", dimPressure * dimTime, 0.5 * scene.primary.viscosity) *
+                localMin<scalar>(mesh_).interpolate(fields.bounded_fraction()))
 {}
 
 tmp<fvVectorMatrix> ViscousStress::resistance(volVectorField& velocity) const
@@ -38,7 +42,8 @@ tmp<fvVectorMatrix> ViscousStress::resistance(volVectorField& velocity) const
         gradient[cell].zz() = stretch[cell].z();
     }
     gradient.correctBoundaryConditions();
-    return -fvm::laplacian(on_faces_, velocity) - fvc::div(viscosity_ * Foam::T(gradient));
+    return -fvm::laplacian(on_faces_ - explicit_, velocity) - fvc::laplacian(explicit_, velocity) -
+           fvc::div(viscosity_ * Foam::T(gradient));
 }
 
 tmp<volScalarField> ViscousStress::damping() const
@@ -47,7 +52,8 @@ tmp<volScalarField> ViscousStress::damping() const
         IOobject("damping", mesh_.time().timeName(), mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
         dimensionedScalar(dimDensity / dimTime, Zero)));
     result.ref().primitiveFieldRef() =
-        fvc::surfaceSum(on_faces_ * mesh_.magSf() * mesh_.nonOrthDeltaCoeffs())().primitiveField() / mesh_.V().field();
+        fvc::surfaceSum((on_faces_ - explicit_) * mesh_.magSf() * mesh_.nonOrthDeltaCoeffs())().primitiveField() /
+        mesh_.V().field();
     result.ref().correctBoundaryConditions();
     return result;
 }

@@ -62,6 +62,7 @@ def test_a_capillary_wave_comes_near_the_solution_from_rest_with_the_square_of_t
     for cells in (16, 32):
         (tmp_path/str(cells)).mkdir()
         errors.append(deviation_of_a_wave(cells, tmp_path/str(cells)))
-    assert errors[0] < 0.05
+    # 0.038 and 0.012 with the inertia of the surface's cells by means of cells, 0.018 and 0.006 with viscous stress half a step late
+    assert errors[0] < 0.016
     # with fluxes half a step late and viscosity acting on them in place of the cells' velocities it halves; the gas's inertia leaves 0.003
     assert errors[1] < errors[0]/2.5
