@@ -13,7 +13,7 @@
 /// what is implicit [kg/(m³ s)]. The momentum equation lets D act on the change of a face's flux, not on the flux: on
 /// the flux it would act, at a face between liquid and gas, on a velocity half a cell away from that of the liquid's
 /// cell, D ≈ 4μ/Δ², which is a wrong stress of 0.9 μ |∂u/∂x| at any Δ: a capillary wave had 6 % too much damping at 32
-/// and at 64 cells a wave (now 0.5 % too little at 32).
+/// and at 64 cells a wave (now 0.5 % at 32).
 #pragma once
 
 #include "fields.hpp"

@@ -60,6 +60,30 @@ TEST(Placement, PerturbedDropHasTheMomentOfItsMode)
     }
 }
 
+TEST(Placement, DropHoldsItsVolume)
+{
+    const auto volume_of = [](const Scene& scene) {
+        double sum = 0.0;
+        for (Index i = 0; i < scene.particles->count(); ++i)
+            if (scene.particles->kind[static_cast<std::size_t>(i)] == Kind::fluid) sum += scene.particles->volume[i];
+        return sum;
+    };
+    for (const int dimensions : {2, 3}) {
+        const double whole = dimensions == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi;
+        Case definition = drop(dimensions, 20, std::nullopt);
+        const Scene ball = place_particles(definition);
+        EXPECT_NEAR(volume_of(ball), whole, 1e-12 * whole);
+        // Its particles are as far apart as their volume says: the second moment is that of a ball.
+        double square = 0.0;
+        for (Index i = 0; i < ball.particles->count(); ++i)
+            square += dot(ball.particles->position[i], ball.particles->position[i]) / ball.particles->count();
+        EXPECT_NEAR(square, dimensions / (dimensions + 2.0), 2e-3);
+        // Half of it, on the floor of its domain.
+        definition.domain.lower[2] = 0.0;
+        EXPECT_NEAR(volume_of(place_particles(definition)), 0.5 * whole, 1e-12 * whole);
+    }
+}
+
 TEST(Placement, WaveHasItsAmplitudeAtTheSurfaceAndNoneAtTheBottom)
 {
     Case definition = small_scenes::pool(2, 0.05);
