@@ -236,10 +236,14 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
             const double lightness = 1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i]);
             by_surface += lightness * force_density;
-            if (with_marangoni_)
+            if (with_marangoni_ && !stress_share_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             acceleration += lightness * force_density;
         }
+        if (stress_share_ && (*stress_share_)[i] != 0.0)
+            acceleration +=
+                (1.0 / particles_.density[i]) * marangoni_force(tension_.slope, (*temperature_gradient_)[i],
+                                                                (*stress_direction_)[i], (*stress_share_)[i]);
         acceleration_.set(i, acceleration);
         if (!by_surface_) return;
         by_surface_before_->set(i, (*by_surface_)[i]);

@@ -168,6 +168,10 @@ protected:
     /// in them does not stir a light phase that has no inertia.
     double mean_density_ = 0.0;
     VectorField* temperature_gradient_ = nullptr; ///< only where it drives Marangoni flow
+    /// What of a stress on the surface each particle takes (surface_stress.hpp); between two phases, which have none,
+    /// δ.
+    ScalarField* stress_share_ = nullptr;
+    VectorField* stress_direction_ = nullptr; ///< n̂ of those
 
     ScalarField* load_ = nullptr; ///< L, Pa; only where tension or recoil presses on a surface
     /// Whether the surface's band bears the load as a continuum surface force. Else it is carried into the liquid.

@@ -7,8 +7,10 @@
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
 #include "models/momentum.hpp"
+#include "models/packing.hpp"
 #include "models/shifting.hpp"
 #include "models/surface_pressure.hpp"
+#include "models/surface_stress.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -29,6 +31,10 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         carried_mean_ = &particles_.add_scalar({"carried_load_mean", "Pa"});
         carried_gradient_ = &particles_.add_vector({"carried_load_gradient", "Pa/m"});
     }
+    if (temperature_gradient_) {
+        stress_share_ = &particles_.add_scalar({"surface_stress_share", "1/m"});
+        stress_direction_ = &particles_.add_vector({"surface_stress_direction", "1"});
+    }
     if (scene.definition.numerics.density_diffusion > 0.0) {
         density_gradient_ = &particles_.add_vector({"density_gradient", "kg/m4"});
         diffusion_rate_ = &particles_.add_scalar({"density_diffusion_rate", "kg/(m3 s)"});
@@ -38,6 +44,8 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         shifting_density_rate_ = &particles_.add_scalar({"shifting_density_rate", "kg/(m3 s)"});
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
+        shifting_speed_ = &particles_.add_scalar({"shifting_speed", "m/s"});
+        packing_rate_ = &particles_.add_scalar({"packing_rate", "kg/(m3 s)"});
         balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
         if (particles_.has("enthalpy")) {
             enthalpy_ = &particles_.scalar("enthalpy");
@@ -84,6 +92,8 @@ void FreeSurfaceFlow::reset(Index place)
     if (density_gradient_) density_gradient_->set(place, {});
     if (!shift_) return;
     shift_->set(place, {});
+    (*shifting_speed_)[place] = 0.0;
+    (*packing_rate_)[place] = 0.0;
     // Walls and solids have the mass that they started with or froze with, and no say in it.
     (*balance_)[place] = 1.0;
 }
@@ -154,7 +164,8 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
     };
     const double before = energy(), stiffness_before = stiffness();
     const double diffused = diffusion_rate_ ? times.diffusion * (*diffusion_rate_)[i] : 0.0;
-    const double shifted = shifting_density_rate_ ? times.shifting * (*shifting_density_rate_)[i] : 0.0;
+    const double shifted =
+        shifting_density_rate_ ? times.shifting * ((*shifting_density_rate_)[i] + (*packing_rate_)[i]) : 0.0;
     const double changes = times.flow * density_rate_[i] + diffused + shifted;
     particles_.density[i] += changes;
     const double compressed = energy(), unlimited = particles_.density[i];
@@ -200,8 +211,8 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
                                        viscous_force_,
                                        *wall_force_};
     // What follows momentum adds to what it has just stored for the same cluster.
-    const ViscousTraction traction{mobility_,          particles_.volume, velocity_gradient_,
-                                   momentum.viscosity, nullptr,           viscous_force_};
+    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity,
+                                   nullptr,   &correction_,      viscous_force_};
     start_artificial_force(neighbourhood);
     const auto sum = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
@@ -222,16 +233,43 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
         sum_with_gradient();
     else {
         const double h = parameters_.smoothing_length;
-        sum_with_gradient(ShiftingVelocity{
-            mobility_, scene_.definition.numerics.shifting, h, 0.1 * parameters_.equation_of_state.sound_speed,
-            kernel_(scene_.spacing).value, 0.05 / h, velocity_gradient_, particles_.mass,
-            rest_density_ * scene_.particle_volume, surface_->fields().companions, surface_->fewest_companions(),
-            &surface_->fields().colour_gradient, *shift_});
+        const ShiftingVelocity shifting{mobility_,
+                                        scene_.definition.numerics.shifting,
+                                        h,
+                                        0.1 * parameters_.equation_of_state.sound_speed,
+                                        kernel_(scene_.spacing).value,
+                                        0.05 / h,
+                                        velocity_gradient_,
+                                        particles_.mass,
+                                        rest_density_ * scene_.particle_volume,
+                                        surface_->fields().companions,
+                                        surface_->fewest_companions(),
+                                        &surface_->fields().colour_gradient,
+                                        surface_->fields().delta,
+                                        *shift_,
+                                        *shifting_speed_};
+        // Packing reads the speed that shifting has just stored for the same cluster.
+        sum_with_gradient(shifting, Packing{mobility_, h, *shifting_speed_, particles_.density, *packing_rate_});
     }
     neighbourhood.for_each_moving([&](Index i) {
         for (VectorField* gradient : {temperature_gradient_, with_density_gradient ? density_gradient_ : nullptr})
             if (gradient) gradient->set(i, correction_[i] * (*gradient)[i]);
     });
+}
+
+/// How a stress on the surface is shared out. It reaches one layer beyond the surface's band.
+void FreeSurfaceFlow::share_surface_stress(const Neighbourhood& neighbourhood)
+{
+    const SurfaceFields& surface = surface_->fields();
+    neighbourhood.for_each_moving([&](Index i) { (*stress_share_)[i] = 0.0; });
+    std::vector<Index> band;
+    for (const Index c : neighbourhood.moving())
+        if (!none_in(neighbourhood.list().cluster(c),
+                     [&](Index i) { return mobility_.weight[i] != 0.0 && surface.delta[i] > 0.0; }))
+            band.push_back(c);
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving_near(band),
+        SurfaceStressShare{mobility_, correction_, surface.delta, surface.normal, *stress_share_, *stress_direction_});
 }
 
 /// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
@@ -313,6 +351,7 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);
+    if (stress_share_) share_surface_stress(neighbourhood);
     if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
     accelerate(neighbourhood);
 }

@@ -39,6 +39,7 @@ private:
     MechanicalWork compress(Index i, const CompressionTimes& times);
     void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
+    void share_surface_stress(const Neighbourhood& neighbourhood);
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
     void extrapolate_velocity(const Neighbourhood& neighbourhood, bool with_shift);
     void extrapolate_pressure(const Neighbourhood& neighbourhood);
@@ -62,6 +63,8 @@ private:
     ScalarField* shifting_density_rate_ = nullptr;
     ScalarField* mass_rate_ = nullptr;
     VectorField* momentum_rate_ = nullptr;
+    ScalarField* shifting_speed_ = nullptr;
+    ScalarField* packing_rate_ = nullptr; ///< of density, kg/(m³ s)
     ScalarField* balance_ = nullptr;
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;
@@ -75,9 +78,20 @@ void FreeSurfaceFlow::sum_with_exchange(const Neighbourhood& neighbourhood, cons
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
     const auto exchange = [&](auto with_enthalpy) {
-        return ShiftingExchange<with_enthalpy()>{
-            mobility_, particles_.volume,       particles_.density, particles_.velocity, *shift_,     *balance_,
-            enthalpy_, *shifting_density_rate_, *mass_rate_,        *momentum_rate_,     energy_rate_};
+        return ShiftingExchange<with_enthalpy()>{mobility_,
+                                                 particles_.volume,
+                                                 particles_.density,
+                                                 particles_.velocity,
+                                                 *shift_,
+                                                 particles_.mass,
+                                                 *shifting_speed_,
+                                                 0.5 * parameters_.smoothing_length / scene_.particle_volume,
+                                                 *balance_,
+                                                 enthalpy_,
+                                                 *shifting_density_rate_,
+                                                 *mass_rate_,
+                                                 *momentum_rate_,
+                                                 energy_rate_};
     };
     enthalpy_ ? sum_with(exchange(std::true_type{})) : sum_with(exchange(std::false_type{}));
 }

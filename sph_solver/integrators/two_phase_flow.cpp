@@ -222,8 +222,8 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
     };
     // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
     if (excess_viscosity_)
-        sum_with_temperature(
-            ViscousTraction{mobility_, particles_.volume, *velocity_gradient_, 1.0, excess_viscosity_, viscous_force_});
+        sum_with_temperature(ViscousTraction{mobility_, particles_.volume, *velocity_gradient_, 1.0, excess_viscosity_,
+                                             nullptr, viscous_force_});
     else
         sum_with_temperature();
     if (!temperature_gradient_) return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/term.hpp"
@@ -56,6 +57,19 @@ inline Symmetric3<double> safe_inverse(const Symmetric3<double>& m, int dimensio
             (m.xx * m.zz - m.xz * m.xz) * inverse,
             (m.xy * m.xz - m.xx * m.yz) * inverse,
             (m.xx * m.yy - m.xy * m.xy) * inverse};
+}
+
+/// L − 1, and less of it where neighbours are few: all of it where det L⁻¹ is above 0.15 (an edge of three faces has
+/// 0.13, a plane surface 0.3), nothing below 0.05. In two dimensions the y row is zero.
+inline Symmetric3<double> trusted_excess(const Symmetric3<double>& l)
+{
+    const bool flat = l.yy == 0.0;
+    const double determinant = flat ? l.xx * l.zz - l.xz * l.xz
+                                    : l.xx * (l.yy * l.zz - l.yz * l.yz) - l.xy * (l.xy * l.zz - l.yz * l.xz) +
+                                          l.xz * (l.xy * l.yz - l.yy * l.xz);
+    const double share = determinant > 0.0 ? std::clamp(10.0 / determinant - 0.5, 0.0, 1.0) : 0.0;
+    return {share * (l.xx - 1.0), share * l.xy,        share * l.xz, flat ? 0.0 : share * (l.yy - 1.0),
+            share * l.yz,         share * (l.zz - 1.0)};
 }
 
 struct GradientCorrection

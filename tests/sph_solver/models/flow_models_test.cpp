@@ -6,12 +6,14 @@
 #include "models/density_diffusion.hpp"
 #include "models/equation_of_state.hpp"
 #include "models/momentum.hpp"
+#include "models/packing.hpp"
 #include "models/shifting.hpp"
 #include "models/shifting_exchange.hpp"
 #include "models/surface_forces.hpp"
 #include "models/surface_geometry.hpp"
 #include "models/surface_load.hpp"
 #include "models/surface_pressure.hpp"
+#include "models/surface_stress.hpp"
 #include "models/transport_velocity.hpp"
 #include "models/viscous_traction.hpp"
 
@@ -249,8 +251,8 @@ TEST(EquationOfState, PressureIsTheDerivativeOfElasticEnergy)
         }
 }
 
-/// Power of viscous forces on a block free on all sides that is strained, u = x, w = −z, by Morris's sum and with the
-/// traction; the total force beside it.
+/// Power of viscous forces on a block free on all sides that is strained, u = x, w = −z, over −μ ∇v:∇v V: by Morris's
+/// sum and with the traction; the total force beside it, over the latter.
 struct ViscousPower
 {
     double laplacian, whole;
@@ -277,22 +279,28 @@ ViscousPower viscous_power(int dimensions, double jitter)
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_force});
     ViscousPower result{power(), 0.0, {}};
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, nullptr, force});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, nullptr, &block.correction, force});
     result.whole = power();
-    for (Index i = 0; i < particles.count(); ++i)
-        result.total_force += force[i];
+    double strained = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        result.total_force += (1.0 / result.whole) * force[i];
+        strained -= 0.3 * 2.0 * particles.volume[i];
+    }
+    result.laplacian /= strained;
+    result.whole /= strained;
     return result;
 }
 
 TEST_P(FlowModels, StrainedLiquidDissipatesTwiceViscosityTimesStrainSquared)
 {
-    // ∇v:∇v = 2 and 2 S:S = 4 for u = x, w = −z: potential flow, in which the traction doubles what is dissipated.
-    const ViscousPower lattice = viscous_power(GetParam(), 0.0);
-    EXPECT_LT(lattice.whole, 0.0);
-    EXPECT_NEAR(lattice.whole / lattice.laplacian, 2.0, 0.02);
-    const ViscousPower jittered = viscous_power(GetParam(), 0.25);
-    EXPECT_NEAR(jittered.whole / jittered.laplacian, 2.0, 0.1);
-    EXPECT_LT(norm(jittered.total_force), 1e-11 * std::abs(jittered.whole));
+    // ∇v:∇v = 2 and 2 S:S = 4 for u = x, w = −z: potential flow, in which the traction doubles what is dissipated. A
+    // kernel that is cut off by a surface loses nothing of it; corners, which see too little for that, do.
+    for (const double jitter : {0.0, 0.25}) {
+        const ViscousPower power = viscous_power(GetParam(), jitter);
+        EXPECT_LT(power.laplacian, GetParam() == 2 ? 0.93 : 0.9) << jitter;
+        EXPECT_NEAR(power.whole, 2.0, GetParam() == 2 ? 0.02 : 0.07) << jitter; // more edges
+        EXPECT_LT(norm(power.total_force), 1e-11) << jitter;
+    }
 }
 
 TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
@@ -315,7 +323,7 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     for (Index i = 0; i < particles.count(); ++i)
         viscosity[i] = particles.position[i].x > middle.x ? 0.3 : 0.0;
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, &viscosity, force});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, &viscosity, nullptr, force});
     Vector traction{};
     double area = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
@@ -376,6 +384,8 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     VectorField& shift = particles.add_vector({"shift", "m/s"});
     ScalarField& companions = particles.add_scalar({"companions", "1"}, 10.0);
     ScalarField& balance = particles.add_scalar({"balance", "1"}, 1.0);
+    ScalarField& surface_delta = particles.add_scalar({"surface_delta", "1/m"});
+    ScalarField& speed = particles.add_scalar({"shifting_speed", "m/s"});
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     ScalarField& mass_rate = particles.add_scalar({"mass_rate", "kg/s"});
     VectorField& momentum_rate = particles.add_vector({"momentum_rate", "N"});
@@ -395,7 +405,9 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
                                    companions,
                                    4.0,
                                    &gradient,
-                                   shift});
+                                   surface_delta,
+                                   shift,
+                                   speed});
     };
     shifting();
     for (Index i = 0; i < particles.count(); ++i)
@@ -405,13 +417,19 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
     shifting();
     // Simple shear u = 3 z has γ̇ = 3.
     EXPECT_NEAR(velocity_gradient.strain_rate(0), 3.0, 1e-9);
-    for (Index i = 0; i < particles.count(); ++i)
+    for (Index i = 0; i < particles.count(); ++i) {
         enthalpy[i] = 1.0 + 0.1 * particles.position[i].x;
+        balance[i] = i % 3 == 0 ? 0.3 : 0.9;
+        particles.mass[i] *= i % 3 == 0 ? 1.14 : 0.98;
+    }
     block.run(ShiftingExchange<true>{{block.mobility},
                                      particles.volume,
                                      particles.density,
                                      particles.velocity,
                                      shift,
+                                     particles.mass,
+                                     speed,
+                                     0.5,
                                      balance,
                                      &enthalpy,
                                      density_rate,
@@ -427,6 +445,89 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
         EXPECT_GT(size, 0.0);
         EXPECT_LT(std::abs(total), 1e-12 * size);
     }
+    // d(½ m v²) = v·(m dv) + ½ v² dm, and d(m v) = m dv + v dm: a pair keeps both.
+    Vector momentum{};
+    double kinetic = 0.0, moved = 0.0, spread = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector v = particles.velocity[i];
+        kinetic += dot(v, momentum_rate[i]) + 0.5 * dot(v, v) * mass_rate[i];
+        momentum += momentum_rate[i] + mass_rate[i] * v;
+        moved += std::abs(0.5 * dot(v, v) * mass_rate[i]);
+        spread += (particles.mass[i] / particles.volume[i] - 1.0) * mass_rate[i];
+    }
+    EXPECT_LT(std::abs(kinetic), 1e-12 * moved);
+    EXPECT_LT(norm(momentum), 1e-12 * moved);
+    EXPECT_LT(spread, 0.0); // masses are evened out
+}
+
+TEST_P(FlowModels, PackingRaisesDensityWhereVolumesOverlap)
+{
+    Block block(GetParam(), 12, 0.0);
+    Particles& particles = block.particles;
+    ScalarField& speed = particles.add_scalar({"shifting_speed", "m/s"}, 0.5);
+    ScalarField& rate = particles.add_scalar({"packing_rate", "kg/(m3 s)"});
+    Vector middle{};
+    for (Index i = 0; i < particles.count(); ++i)
+        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+    Index inner = 0;
+    for (Index i = 0; i < particles.count(); ++i)
+        if (norm(particles.position[i] - middle) < norm(particles.position[inner] - middle)) inner = i;
+    for (const double overlap : {-0.03, 0.0, 0.02}) {
+        for (Index i = 0; i < particles.count(); ++i)
+            particles.volume[i] = (1.0 + overlap) * 1.0;
+        block.run(Packing{{block.mobility}, 2.0, speed, particles.density, rate});
+        // C = 1 + overlap on a lattice of unit spacing; U/h = 1/4 a second.
+        EXPECT_NEAR(rate[inner], 0.25 * particles.density[inner] * overlap, 2e-4 * particles.density[inner]);
+    }
+    speed[inner] = 0.0;
+    block.run(Packing{{block.mobility}, 2.0, speed, particles.density, rate});
+    EXPECT_EQ(rate[inner], 0.0);
+}
+
+TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
+{
+    // A block whose upper faces are free: u = z is what a stress μ x̂ on the top drives. Each column of it takes the
+    // whole stress, and viscous force and stress cancel on every particle far from the other faces.
+    Block block(GetParam(), 14, 0.0);
+    Particles& particles = block.particles;
+    VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
+    VectorField& force = particles.add_vector({"force", "N"});
+    VectorField& wall_force = particles.add_vector({"wall_force", "N"});
+    VectorField& normal = particles.add_vector({"normal", "1"});
+    VectorField& direction = particles.add_vector({"direction", "1"});
+    ScalarField& share = particles.add_scalar({"share", "1/m"});
+    ScalarField& delta = particles.add_scalar({"delta", "1/m"});
+    ScalarField& no_pressure = particles.add_scalar({"no_pressure", "Pa"});
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    double top = -1e9;
+    Vector middle{};
+    for (Index i = 0; i < particles.count(); ++i) {
+        top = std::max(top, particles.position[i].z);
+        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+        particles.velocity.set(i, {particles.position[i].z, 0.0, 0.0});
+    }
+    for (Index i = 0; i < particles.count(); ++i) {
+        const double depth = top - particles.position[i].z;
+        if (depth < 1.5) delta[i] = depth < 0.5 ? 0.93 : 0.07;
+        normal.set(i, {0.0, 0.0, 1.0});
+    }
+    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
+    block.run(FreeSurfaceMomentum{
+        {block.mobility}, particles.volume, no_pressure, particles.velocity, 1.0, pressure_force, force, wall_force});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force});
+    block.run(SurfaceStressShare{{block.mobility}, block.correction, delta, normal, share, direction});
+    double column = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector offset = particles.position[i] - middle;
+        const double depth = top - particles.position[i].z;
+        if (std::abs(offset.x) > 0.6 || std::abs(offset.y) > 0.6 || depth > 3.5) continue;
+        EXPECT_NEAR(force[i].x + particles.volume[i] * share[i], 0.0, 1e-3) << depth;
+        EXPECT_NEAR(direction[i].z, 1.0, 1e-12);
+        if (std::abs(offset.x) <= 0.5 + 1e-9 && offset.x > -0.5 + 1e-9 && std::abs(offset.y) <= 0.5 + 1e-9 &&
+            (GetParam() == 2 || offset.y > -0.5 + 1e-9))
+            column += particles.volume[i] * share[i];
+    }
+    EXPECT_NEAR(column, 1.0, 1e-3);
 }
 
 TEST(EquationOfState, DensityAndPressureAreInverse)

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "models/gradient_correction.hpp"
+
+namespace cupel::inline CUPEL_ENGINE
+{
+
+/// The share of a stress on a free surface that each particle takes, so that viscosity answers it exactly:
+///
+///   δ*_i = −n̂_i · Σ_j V_j (L_i + L_j) ∇W_ij      [1/m]
+///
+/// Where a shear du/dz is the same everywhere up to a plane surface, viscous forces (momentum.hpp with
+/// viscous_traction.hpp) add up to −μ du/dz δ*_i: a stress τ n̂ that is given to particles as τ δ*_i drives that shear
+/// and nothing else, in whatever way they are arranged. Its sum over a column is one, its first moment about the
+/// surface zero: it is most of all in the outermost layer, and a little less than nothing in the third. With δ = 2
+/// |∇c|, whose middle is inside the liquid, that layer lags by 7 % of the surface speed in a layer of 20 spacings
+/// (marangoni_layer). Walls and solids continue the liquid before them.
+struct SurfaceStressShare
+{
+    Mobility mobility;
+    CorrectionMatrix correction; ///< L
+    const ScalarField& delta;    ///< above zero in the surface's band
+    const VectorField& normal;   ///< n̂ of that, out of the liquid
+    ScalarField& share;          ///< δ*, zero where no particle of the band is in reach
+    VectorField& direction;      ///< n̂ where that is not zero
+
+    struct Near
+    {};
+    struct Far
+    {
+        Real own; ///< how often L_i counts: 1, beside what continues it 2
+        Symmetric3<Real> other;
+        VectorOf<Real> normal; ///< δ n̂
+    };
+    struct Sum
+    {
+        VectorLanes own{}, others{}, normal{};
+    };
+
+    static Symmetric3<double> trusted(const Symmetric3<double>& l)
+    {
+        const Symmetric3<double> e = trusted_excess(l);
+        return {1.0 + e.xx, e.xy, e.xz, 1.0 + e.yy, e.yz, 1.0 + e.zz};
+    }
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    Near near(Index) const { return {}; }
+    Far far(Index j) const
+    {
+        if (mobility.weight[j] == 0.0) return {2, {}, {}};
+        const Symmetric3<double> l = trusted(correction[j]);
+        return {1,
+                {real(l.xx), real(l.xy), real(l.xz), real(l.yy), real(l.yz), real(l.zz)},
+                real(std::max(delta[j], 0.0) * normal[j])};
+    }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const VectorLanes& n = pair.volume_gradient;
+        const auto& l = j.other;
+        sum.own += Lanes(j.own) * n;
+        sum.normal += pair.kernel * broadcast(j.normal);
+        sum.others += VectorLanes{Lanes(l.xx) * n.x + Lanes(l.xy) * n.y + Lanes(l.xz) * n.z,
+                                  Lanes(l.xy) * n.x + Lanes(l.yy) * n.y + Lanes(l.yz) * n.z,
+                                  Lanes(l.xz) * n.x + Lanes(l.yz) * n.y + Lanes(l.zz) * n.z};
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        for (int lane = 0; lane < cluster.count; ++lane) {
+            const Index i = cluster.first + lane;
+            if (mobility.weight[i] == 0.0) continue;
+            Vector outward = normal[i];
+            if (!(delta[i] > 0.0)) {
+                outward = {sum.normal.x[lane], sum.normal.y[lane], sum.normal.z[lane]};
+                const double length = norm(outward);
+                share[i] = 0.0;
+                if (!(length > 0.0)) continue;
+                outward = (1.0 / length) * outward;
+            }
+            const Vector own{sum.own.x[lane], sum.own.y[lane], sum.own.z[lane]};
+            const Vector others{sum.others.x[lane], sum.others.y[lane], sum.others.z[lane]};
+            share[i] = -dot(outward, trusted(correction[i]) * own + others);
+            direction.set(i, outward);
+        }
+    }
+};
+
+} // namespace cupel::inline CUPEL_ENGINE
