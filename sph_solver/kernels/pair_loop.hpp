@@ -212,18 +212,18 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
         count > clusters_at_a_time, [&]() __attribute__((noinline)) {
             const FlushedToZero no_denormals;
             static thread_local NeighboursOfCluster<Record> neighbours;
-            auto& mine = neighbours;
-            stretches.for_each([&](Index k) {
-                const Index c = clusters[static_cast<std::size_t>(k)];
-                const Cluster cluster = list.cluster(c);
-                if (list.skips_idle() && (terms.idle(cluster) && ...)) return;
-                const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
-                const auto found =
-                    records ? mine.find(list.near(c), records, ignored) : mine.look_up(list.near(c), record, wanted);
-                auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
-                if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
-                of_cluster.store(cluster, sums);
-            });
+            for (Stretches::Range some{}; stretches.next(some);)
+                for (Index k = some.begin; k < some.end; ++k) {
+                    const Index c = clusters[static_cast<std::size_t>(k)];
+                    const Cluster cluster = list.cluster(c);
+                    if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+                    const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+                    const auto found = records ? neighbours.find(list.near(c), records, ignored)
+                                               : neighbours.look_up(list.near(c), record, wanted);
+                    auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
+                    if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
+                    of_cluster.store(cluster, sums);
+                }
         });
 }
 

@@ -29,22 +29,28 @@ public:
                 {static_cast<Index>(count * thread / threads), static_cast<Index>(count * (thread + 1) / threads)});
     }
 
-    /// Called by every thread of a parallel region, or by one alone: visit(k) for each number, once by one of them.
-    template <class Visit> void for_each(const Visit& visit)
-    {
-        const auto mine = static_cast<std::size_t>(omp_get_thread_num()) % stretches_.size();
-        do
-            for (Range some = take(stretches_[mine]); some.begin < some.end; some = take(stretches_[mine]))
-                for (Index k = some.begin; k < some.end; ++k)
-                    visit(k);
-        while (take_from_another(mine));
-    }
-
-private:
     struct Range
     {
         Index begin, end;
     };
+    /// The next numbers for the thread that asks, of a parallel region or alone; false where none are left to take.
+    bool next(Range& some)
+    {
+        const auto mine = static_cast<std::size_t>(omp_get_thread_num()) % stretches_.size();
+        do
+            some = take(stretches_[mine]);
+        while (some.begin >= some.end && take_from_another(mine));
+        return some.begin < some.end;
+    }
+    /// visit(k) for each of them.
+    template <class Visit> void for_each(const Visit& visit)
+    {
+        for (Range some{}; next(some);)
+            for (Index k = some.begin; k < some.end; ++k)
+                visit(k);
+    }
+
+private:
     /// What is left of a stretch, both ends in one number that changes at once; each on a cache line of its own.
     struct alignas(64) Stretch
     {
