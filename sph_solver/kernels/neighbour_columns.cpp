@@ -1,5 +1,6 @@
 /// The order of particles in memory: columns, and clusters cut from them.
 #include "kernels/neighbour_list.hpp"
+#include "kernels/neighbour_records.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +39,11 @@ void NeighbourList::sort_into_columns(Particles& particles)
     columns_y_ = static_cast<Index>(columns_y);
 
     const auto columns = static_cast<std::size_t>(columns_x_) * static_cast<std::size_t>(columns_y_);
-    std::vector<Index> column_of(static_cast<std::size_t>(count)), begin(columns + 1, 0);
-    std::vector<Index> order(static_cast<std::size_t>(count));
+    std::vector<Index> begin(columns + 1, 0);
+    // No pass is under way: its memory holds what would otherwise be made anew, page by page, each time.
+    auto* const lent = reinterpret_cast<Index*>(pass_memory(2 * sizeof(Index) * static_cast<std::size_t>(count)));
+    const std::span<Index> column_of(lent, static_cast<std::size_t>(count));
+    const std::span<Index> order(lent + count, static_cast<std::size_t>(count));
     // Each thread counts a share of the particles, and later puts them into its share of each column.
     const bool worth_it = count > 8192 && static_cast<std::size_t>(count) > 8 * columns;
     const Index shares = worth_it ? std::min(omp_get_max_threads(), 64) : 1;

@@ -1,5 +1,6 @@
 #include "kernels/neighbour_list.hpp"
 #include "kernels/cluster_sieve.hpp"
+#include "kernels/stretches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
     const Index chunk_count = (count + clusters_per_chunk - 1) / clusters_per_chunk;
     chunks_.resize(static_cast<std::size_t>(chunk_count));
     if (images_.any()) image_runs_.assign(clusters_.size(), {});
+    Stretches chunks(chunk_count, 1);
 
 #pragma omp parallel
     {
@@ -83,8 +85,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
             const Box& box = boxes_[static_cast<std::size_t>(c)] = box_of(particles, c);
             boxes_in_columns_.set(c, box.lower - origin_, box.upper - origin_);
         }
-#pragma omp for schedule(dynamic)
-        for (Index chunk = 0; chunk < chunk_count; ++chunk) {
+        chunks.for_each([&](Index chunk) {
             auto& found = chunks_[static_cast<std::size_t>(chunk)];
             found.clear();
             const Index end = std::min(count, (chunk + 1) * clusters_per_chunk);
@@ -98,7 +99,7 @@ void NeighbourList::find_neighbours(const Particles& particles)
             }
             // Growing by doubling leaves up to half of it unused.
             if (found.capacity() > found.size() + found.size() / 8) found.shrink_to_fit();
-        }
+        });
     }
 }
 
@@ -303,16 +304,15 @@ bool NeighbourList::refresh(const Particles& particles, std::span<const Index> m
     const std::vector<Index> concerned = clusters_near(moved);
     if (concerned.size() > most_clusters) return false;
 
-#pragma omp parallel if (concerned.size() > 32)
-    {
-#pragma omp for schedule(dynamic, 8)
-        for (std::size_t k = 0; k < concerned.size(); ++k) {
-            const auto c = static_cast<std::size_t>(concerned[k]);
-            own_lists_[c].clear();
-            list_cluster(particles, concerned[k], own_lists_[c]);
-            list_images(particles, concerned[k]);
-        }
-    }
+    Stretches stretches(static_cast<Index>(concerned.size()), 8);
+    by_all_threads(concerned.size() > 32, [&] {
+        stretches.for_each([&](Index k) {
+            const Index c = concerned[static_cast<std::size_t>(k)];
+            own_lists_[static_cast<std::size_t>(c)].clear();
+            list_cluster(particles, c, own_lists_[static_cast<std::size_t>(c)]);
+            list_images(particles, c);
+        });
+    });
     double built = 0.0, now = 0.0;
     for (const Index c : moved) {
         built += ranges_[static_cast<std::size_t>(c)].neighbours;

@@ -12,6 +12,7 @@
 #include "kernels/neighbour_records.hpp"
 #include "kernels/places.hpp"
 #include "kernels/smoothing_kernel.hpp"
+#include "kernels/stretches.hpp"
 #include "kernels/terms.hpp"
 #include "particles/particles.hpp"
 
@@ -204,25 +205,26 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     }
     else if constexpr ((Ignores<Terms> && ...))
         of_interest.emplace(list);
+    constexpr Index clusters_at_a_time = 16;
+    Stretches stretches(count, clusters_at_a_time);
     // A few clusters are done sooner than threads are woken.
-    const Index share = count > 512 ? 16 : 4;
-#pragma omp parallel if (count > 16)
-    {
-        const FlushedToZero no_denormals;
-        static thread_local NeighboursOfCluster<Record> neighbours;
-#pragma omp for schedule(guided, share)
-        for (Index k = 0; k < count; ++k) {
-            const Index c = clusters[static_cast<std::size_t>(k)];
-            const Cluster cluster = list.cluster(c);
-            if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-            const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
-            const auto found = records ? neighbours.find(list.near(c), records, ignored)
-                                       : neighbours.look_up(list.near(c), record, wanted);
-            auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
-            if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
-            of_cluster.store(cluster, sums);
-        }
-    }
+    by_all_threads(
+        count > clusters_at_a_time, [&]() __attribute__((noinline)) {
+            const FlushedToZero no_denormals;
+            static thread_local NeighboursOfCluster<Record> neighbours;
+            for (Stretches::Range some{}; stretches.next(some);)
+                for (Index k = some.begin; k < some.end; ++k) {
+                    const Index c = clusters[static_cast<std::size_t>(k)];
+                    const Cluster cluster = list.cluster(c);
+                    if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+                    const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+                    const auto found = records ? neighbours.find(list.near(c), records, ignored)
+                                               : neighbours.look_up(list.near(c), record, wanted);
+                    auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
+                    if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
+                    of_cluster.store(cluster, sums);
+                }
+        });
 }
 
 /// Sum of value(i) over all particles, of a number or of anything that adds up, in blocks of fixed size so that the
@@ -232,16 +234,19 @@ template <class Value> auto ordered_sum(Index count, const Value& value)
     using Sum = decltype(value(Index{}));
     constexpr Index block = 4096;
     const Index blocks = (count + block - 1) / block;
-    std::vector<Sum> partial(static_cast<std::size_t>(blocks), Sum{});
-#pragma omp parallel for schedule(static) if (blocks > 1)
-    for (Index b = 0; b < blocks; ++b) {
+    const auto sum_of_block = [&](Index b) {
         const Index end = std::min(count, (b + 1) * block);
         Sum sum{};
         for (Index i = b * block; i < end; ++i)
             sum += value(i);
-        partial[static_cast<std::size_t>(b)] = sum;
-    }
+        return sum;
+    };
     Sum total{};
+    if (blocks == 1) return total += sum_of_block(0);
+    std::vector<Sum> partial(static_cast<std::size_t>(blocks), Sum{});
+#pragma omp parallel for schedule(static)
+    for (Index b = 0; b < blocks; ++b)
+        partial[static_cast<std::size_t>(b)] = sum_of_block(b);
     for (const Sum& sum : partial)
         total += sum;
     return total;

@@ -1,9 +1,11 @@
 #include "output/atomic_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <future>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -85,6 +87,19 @@ void flush_to_disk(const fs::path& path)
 {
     std::error_code error;
     if (fs::exists(path, error)) FileDescriptor(path, O_RDONLY, "flushed to the disk").flush();
+}
+
+void flush_to_disk(const std::vector<fs::path>& paths)
+{
+    constexpr std::size_t at_a_time = 4;
+    std::vector<std::future<void>> flushing;
+    for (std::size_t first = 0; first < std::min(at_a_time, paths.size()); ++first)
+        flushing.push_back(std::async(std::launch::async | std::launch::deferred, [&paths, first] {
+            for (std::size_t k = first; k < paths.size(); k += at_a_time)
+                flush_to_disk(paths[k]);
+        }));
+    for (auto& some : flushing)
+        some.get();
 }
 
 void write_whole(const fs::path& path, std::string_view content, Flush flush)

@@ -146,6 +146,7 @@ void Recorder::settle()
 void Recorder::step()
 {
     if (const auto problem = simulate()) return stop(*problem);
+    fields_->check();
     if (output_is_due()) {
         write_snapshot_now();
         if (output_time(next_output_) >= simulation_.scene().definition.time.end) ending_ = Ending::completed;
@@ -177,7 +178,7 @@ void Recorder::write_snapshot_now()
 }
 
 /// What a checkpoint keeps beside the particles.
-RunState Recorder::state_of(const Simulation& simulation) const
+RunState Recorder::state_of(const Simulation& simulation)
 {
     RunState state;
     state.time = simulation.time();
@@ -201,9 +202,9 @@ RunState Recorder::state_of(const Simulation& simulation) const
 void Recorder::write_checkpoint()
 {
     const TimedScope timed(output_seconds_);
-    const RunState state = state_of(simulation_);
     history_->flush();
     fields_->flush();
+    const RunState state = state_of(simulation_);
     checkpoints_->write(simulation_.particles(), state);
 }
 

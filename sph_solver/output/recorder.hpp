@@ -53,7 +53,7 @@ private:
     void settle();
     static void bring_standing_to_rest(Particles& particles);
     void write_snapshot_now();
-    RunState state_of(const Simulation& simulation) const;
+    RunState state_of(const Simulation& simulation);
     void write_checkpoint();
     std::filesystem::path write_start();
     void update_books();

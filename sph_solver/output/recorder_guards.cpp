@@ -94,6 +94,7 @@ void Recorder::stop(const Diagnosis& diagnosis)
     cost_when_stopped_ = cost_so_far();
     log_->error("{}", diagnosis_);
     try {
+        fields_->wait();
         write_snapshot(folder_.stopped_fields(), simulation_.particles(), simulation_.time(), provenance_);
         return_to_last_good_state();
     }

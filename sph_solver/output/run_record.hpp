@@ -54,7 +54,7 @@ struct RunCost
 {
     double wall_seconds = 0;
     double cpu_seconds = 0;
-    double output_seconds = 0; ///< of the wall time: snapshots, history, checkpoints, progress
+    double output_seconds = 0; ///< of the wall time: for how long output held the run up
     double guard_seconds = 0;  ///< of the wall time: the guards
     int threads = 1;
     std::uint64_t steps = 0;

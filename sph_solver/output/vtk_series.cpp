@@ -3,18 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 #include <stdexcept>
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
 
 namespace cupel
 {
@@ -24,67 +14,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-vtkNew<vtkFloatArray> float_array(const std::string& name, int components, std::size_t count)
-{
-    vtkNew<vtkFloatArray> array;
-    array->SetName(name.c_str());
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-    return array;
-}
-
-void add_text(vtkFieldData* data, const char* name, const std::string& value)
-{
-    vtkNew<vtkStringArray> array;
-    array->SetName(name);
-    array->InsertNextValue(value);
-    data->AddArray(array);
-}
-
-void add_points(vtkPolyData* output, const Particles& particles, const std::vector<Index>& written)
-{
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(written.size()));
-    vtkNew<vtkCellArray> vertices;
-    vertices->AllocateExact(static_cast<vtkIdType>(written.size()), static_cast<vtkIdType>(written.size()));
-    for (std::size_t k = 0; k < written.size(); ++k) {
-        const Vector place = particles.position[written[k]];
-        const auto point = static_cast<vtkIdType>(k);
-        points->SetPoint(point, place.x, place.y, place.z);
-        vertices->InsertNextCell(1, &point);
-    }
-    output->SetPoints(points);
-    output->SetVerts(vertices);
-}
-
-void add_fields(vtkPointData* data, const Particles& particles, const std::vector<Index>& written)
-{
-    for (const auto& field : particles.scalars()) {
-        if (field->info.output != Output::yes) continue;
-        const auto array = float_array(field->info.name, 1, written.size());
-        float* values = array->GetPointer(0);
-        for (std::size_t k = 0; k < written.size(); ++k)
-            values[k] = static_cast<float>((*field)[written[k]]);
-        data->AddArray(array);
-    }
-    for (const auto& field : particles.vectors()) {
-        if (field->info.output != Output::yes) continue;
-        const auto array = float_array(field->info.name, 3, written.size());
-        float* values = array->GetPointer(0);
-        for (std::size_t k = 0; k < written.size(); ++k) {
-            const Vector value = (*field)[written[k]];
-            values[3 * k] = static_cast<float>(value.x);
-            values[3 * k + 1] = static_cast<float>(value.y);
-            values[3 * k + 2] = static_cast<float>(value.z);
-        }
-        data->AddArray(array);
-    }
-    const auto fraction = float_array("fraction", 1, written.size());
-    for (std::size_t k = 0; k < written.size(); ++k)
-        fraction->GetPointer(0)[k] = particles.material[static_cast<std::size_t>(written[k])] == 0 ? 1.0F : 0.0F;
-    data->AddArray(fraction);
-}
+/// So many snapshots may be taken and not yet written, and if there is more than one, particles of so many bytes: a few
+/// small ones may come at a time when the machine has no processor left for another thread.
+constexpr std::size_t most_under_way = 8, bytes_under_way = 16 << 20;
 
 constexpr const char* list_name = "fields.pvd";
 
@@ -103,55 +35,35 @@ int number_of(const std::string& name)
 
 } // namespace
 
-void write_snapshot(const fs::path& file, const Particles& particles, double time, const Provenance& provenance,
-                    Flush flush)
-{
-    std::vector<Index> written;
-    written.reserve(static_cast<std::size_t>(particles.count()));
-    for (Index i = 0; i < particles.count(); ++i)
-        if (particles.kind[static_cast<std::size_t>(i)] != Kind::wall) written.push_back(i);
-
-    vtkNew<vtkPolyData> output;
-    add_points(output, particles, written);
-    add_fields(output->GetPointData(), particles, written);
-    vtkNew<vtkDoubleArray> time_value;
-    time_value->SetName("TimeValue");
-    time_value->InsertNextValue(time);
-    output->GetFieldData()->AddArray(time_value);
-    add_text(output->GetFieldData(), "code_version", provenance.code.version);
-    add_text(output->GetFieldData(), "code_commit", provenance.code.commit);
-    add_text(output->GetFieldData(), "case", provenance.case_name);
-    add_text(output->GetFieldData(), "case_hash", provenance.case_hash);
-    add_text(output->GetFieldData(), "resolved_case", provenance.resolved_case);
-
-    // Into memory first, so that a full disk is met in one place only. LZ4 takes an eighth of zlib's time at its
-    // fastest level, and one and a quarter (a drop) to two times (a powder bed) its space: a run waits for the one, not
-    // the other.
-    vtkNew<vtkLZ4DataCompressor> compressor;
-    compressor->SetCompressionLevel(1);
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetInputData(output);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressor(compressor);
-    writer->SetIdTypeToInt32();
-    writer->WriteToOutputStringOn();
-    if (writer->Write() != 1)
-        throw OutputError(file.string() + ": the VTK library cannot write the snapshot; free some memory");
-    write_whole(file, writer->GetOutputString(), flush);
-}
-
 VtkSeries::VtkSeries(fs::path folder, Provenance provenance, const SnapshotList& earlier)
-    : folder_(std::move(folder)), provenance_(std::move(provenance))
+    : folder_(std::move(folder)), provenance_(std::move(provenance)),
+      last_time_(-std::numeric_limits<double>::infinity())
 {
     for (std::size_t k = 0; k < earlier.times.size(); ++k) {
         const int number = static_cast<int>(earlier.numbers[k]);
         const std::string name = file_name(number);
         next_number_ = number + 1;
-        if (fs::exists(folder_ / name)) entries_.emplace_back(earlier.times[k], name);
+        if (!fs::exists(folder_ / name)) continue;
+        entries_.emplace_back(earlier.times[k], name);
+        last_time_ = earlier.times[k];
     }
     remove_unlisted();
     write_list();
+}
+
+VtkSeries::~VtkSeries()
+{
+    // A run that ends by an error leaves a list of all that is there.
+    try {
+        writer_.wait();
+    }
+    catch (const std::exception&) { // that error, or another that came first
+    }
+    try {
+        if (listed_ != entries_.size()) write_list();
+    }
+    catch (const OutputError&) {
+    }
 }
 
 void VtkSeries::remove_unlisted() const
@@ -168,27 +80,42 @@ void VtkSeries::remove_unlisted() const
 
 void VtkSeries::write(const Particles& particles, double time)
 {
-    if (!entries_.empty() && !(entries_.back().first < time))
-        throw std::logic_error("the times of snapshots have to rise");
+    if (!(last_time_ < time)) throw std::logic_error("the times of snapshots have to rise");
+    if (taken_.empty())
+        taken_.resize(std::clamp<std::size_t>(bytes_under_way / (particles.bytes() + 1), 1, most_under_way));
+    writer_.wait_for_fewer_than(taken_.size());
+    // They are written in the order in which they are taken: the one that was in this place is written.
+    Snapshot& snapshot = taken_[written_++ % taken_.size()];
+    snapshot.take(particles, time);
+    last_time_ = time;
+    writer_.add([this, &snapshot] { write_taken(snapshot); });
+}
+
+/// The thread's work. The list, which replaces another and so waits for the disk more than a snapshot does, is written
+/// now and then, and before anything depends on it.
+void VtkSeries::write_taken(const Snapshot& snapshot)
+{
+    constexpr std::chrono::milliseconds between_lists{100};
     const std::string name = file_name(next_number_);
-    write_snapshot(folder_ / name, particles, time, provenance_, Flush::later);
-    entries_.emplace_back(time, name);
-    unflushed_.push_back(name);
+    write_snapshot(folder_ / name, snapshot, provenance_, Flush::later);
+    entries_.emplace_back(snapshot.time(), name);
+    unflushed_.push_back(folder_ / name);
     ++next_number_;
-    write_list();
+    if (std::chrono::steady_clock::now() - list_written_ >= between_lists) write_list();
 }
 
 void VtkSeries::flush()
 {
-    for (const auto& name : unflushed_)
-        flush_to_disk(folder_ / name);
-    flush_to_disk(folder_ / list_name);
-    flush_to_disk(folder_);
+    writer_.wait();
+    if (listed_ != entries_.size()) write_list();
+    flush_to_disk(unflushed_);
+    flush_to_disk(std::vector<fs::path>{folder_ / list_name, folder_});
     unflushed_.clear();
 }
 
-SnapshotList VtkSeries::until(double time) const
+SnapshotList VtkSeries::until(double time)
 {
+    writer_.wait();
     SnapshotList list;
     for (const auto& [when, name] : entries_)
         if (when <= time) {
@@ -198,13 +125,21 @@ SnapshotList VtkSeries::until(double time) const
     return list;
 }
 
-void VtkSeries::write_list() const
+std::size_t VtkSeries::size()
+{
+    writer_.wait();
+    return entries_.size();
+}
+
+void VtkSeries::write_list()
 {
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (const auto& [time, name] : entries_)
         text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
     text += "</Collection>\n</VTKFile>\n";
     write_whole(folder_ / list_name, text, Flush::later);
+    listed_ = entries_.size();
+    list_written_ = std::chrono::steady_clock::now();
 }
 
 } // namespace cupel

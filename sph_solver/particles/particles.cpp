@@ -35,13 +35,20 @@ void permute_array(Array& values, Array& scratch, std::span<const Index> order)
     values.swap(scratch);
 }
 
-template <class T> void permute_vector(std::vector<T>& values, std::span<const Index> order)
+/// `scratch` has to have room for as many doubles.
+template <class T> void permute_vector(std::vector<T>& values, Array& scratch, std::span<const Index> order)
 {
-    std::vector<T> sorted(values.size());
-#pragma omp parallel for schedule(static) if (order.size() > 8192)
-    for (std::size_t k = 0; k < order.size(); ++k)
-        sorted[k] = values[static_cast<std::size_t>(order[k])];
-    values.swap(sorted);
+    const std::size_t count = order.size();
+    T* const sorted = reinterpret_cast<T*>(scratch.data());
+#pragma omp parallel if (count > 8192)
+    {
+#pragma omp for schedule(static)
+        for (std::size_t k = 0; k < count; ++k)
+            new (sorted + k) T(values[static_cast<std::size_t>(order[k])]);
+#pragma omp for schedule(static)
+        for (std::size_t k = 0; k < count; ++k)
+            values[k] = sorted[k];
+    }
 }
 
 std::size_t padded(Index count)
@@ -108,10 +115,10 @@ void Particles::permute(std::span<const Index> order)
     for (const auto& field : vectors_)
         for (Array* component : {&field->x, &field->y, &field->z})
             permute_array(*component, scratch_, order);
-    permute_vector(kind, order);
-    permute_vector(material, order);
-    permute_vector(identity, order);
-    permute_vector(surface_parent, order);
+    permute_vector(kind, scratch_, order);
+    permute_vector(material, scratch_, order);
+    permute_vector(identity, scratch_, order);
+    permute_vector(surface_parent, scratch_, order);
     rebuild_places();
 }
 

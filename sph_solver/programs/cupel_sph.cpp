@@ -6,6 +6,7 @@
 /// RESOLVED.json is what `cupel_case resolve` prints. Exit status: 0 completed, 1 stopped by a guard or an output that
 /// cannot be written, 2 refused, 130 interrupted after a checkpoint was left.
 #include <cstdio>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <omp.h>
@@ -52,6 +53,9 @@ int main(int argument_count, char** arguments)
     }
     options.folder = folder;
     omp_set_num_threads(options.threads);
+    // VTK would look for the least and the greatest of each array with a thread for each processor, which would take
+    // from the run's and cost more than they find.
+    ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
     cupel::catch_stop_signals();
     try {
         return run(resolved_case, instructions, options);

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 from tests.end_to_end.direct_runs import (
@@ -123,6 +124,37 @@ def test_a_folder_that_is_renamed_ends_the_run_in_one_line_and_it_goes_on_when_t
     assert not (tmp_path / "elsewhere" / "run.json").exists()
     (tmp_path / "elsewhere").rename(tmp_path / "run")
     resume_and_compare(case, tmp_path / "run", whole)
+
+
+def cpu_seconds(process: subprocess.Popen) -> float:
+    fields = (Path("/proc") / str(process.pid) / "stat").read_text().rsplit(") ", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def test_what_a_run_waits_for_its_output_is_in_its_account_and_changes_nothing(unbroken, begun, tmp_path):
+    """A pipe where a snapshot is prepared holds the writer up until somebody opens the other end."""
+    case, whole = unbroken
+    process = go_on(case, begun, tmp_path / "run")
+    fields, number = tmp_path / "run" / "fields", len(listed_snapshots(whole)) - 30
+    obstacle = fields / f".fields_{number:06}.vtp.beside"
+    os.mkfifo(obstacle)
+    before, now = -1.0, cpu_seconds(process)
+    while not (fields / f"fields_{number - 1:06}.vtp").exists() or now > before:  # it goes on until too much is to be written
+        assert process.poll() is None
+        time.sleep(0.3)
+        before, now = now, cpu_seconds(process)
+    held_up = time.monotonic()
+    time.sleep(1.0)
+    assert not (fields / f"fields_{number + 1:06}.vtp").exists()
+    pipe = os.open(obstacle, os.O_RDWR)
+    waited = time.monotonic() - held_up
+    assert process.wait(timeout=60) == 0
+    (fields / f"fields_{number:06}.vtp").unlink()
+    (fields / f"fields_{number:06}.vtp").write_bytes(os.read(pipe, 1 << 16))
+    os.close(pipe)
+    assert_same_run(tmp_path / "run", whole)
+    cost = record(tmp_path / "run")["cost"]
+    assert waited < cost["output_s"] < cost["wall_s"]
 
 
 def test_a_folder_that_is_removed_ends_the_run_in_one_line_and_stays_away(unbroken, begun, tmp_path):

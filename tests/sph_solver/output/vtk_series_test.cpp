@@ -1,6 +1,12 @@
 #include "output/vtk_series.hpp"
 
 #include <cmath>
+#include <fcntl.h>
+#include <future>
+#include <optional>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -27,6 +33,37 @@ vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& file)
     reader->Update();
     return reader->GetOutput();
 }
+
+/// A pipe in the place of a file: who opens that to write waits until it is removed.
+class Obstacle
+{
+public:
+    explicit Obstacle(std::filesystem::path place) : place_(std::move(place))
+    {
+        EXPECT_EQ(::mkfifo(place_.c_str(), 0600), 0);
+    }
+
+    /// Lets the writer go on; returns what it has written, which has to be less than a pipe holds (64 KiB).
+    std::string remove()
+    {
+        pipe_.emplace(place_, O_RDWR, "read"); // stays open, so that whoever flushes the file need not wait
+        std::string content(1 << 16, '\0');
+        std::size_t size = 0;
+        for (bool written = false; !written;) {
+            written = !std::filesystem::exists(place_); // the writer renames it when it is done
+            pollfd readable{pipe_->number(), POLLIN, 0};
+            while (::poll(&readable, 1, 10) == 1)
+                size += static_cast<std::size_t>(
+                    std::max<ssize_t>(0, ::read(pipe_->number(), content.data() + size, content.size() - size)));
+        }
+        content.resize(size);
+        return content;
+    }
+
+private:
+    std::filesystem::path place_;
+    std::optional<FileDescriptor> pipe_;
+};
 
 } // namespace
 
@@ -111,6 +148,7 @@ TEST_F(VtkFiles, SeriesListsEverySnapshotWithItsTime)
     VtkSeries series(folder, some_provenance());
     series.write(particles, 0.0);
     series.write(particles, 1e-4);
+    series.flush();
     const std::string list = read_whole(folder / "fields.pvd");
     EXPECT_NE(list.find("timestep=\"0\" part=\"0\" file=\"fields_000000.vtp\""), std::string::npos) << list;
     EXPECT_NE(list.find("timestep=\"0.0001\" part=\"0\" file=\"fields_000001.vtp\""), std::string::npos) << list;
@@ -136,6 +174,7 @@ TEST_F(VtkFiles, ResumedSeriesDropsWhatCameLaterAndGoesOn)
     EXPECT_FALSE(std::filesystem::exists(folder / ".fields_000004.vtp.beside"));
     EXPECT_TRUE(std::filesystem::exists(folder / "fields_000003.vtp.bak"));
     series.write(particles, 0.35);
+    series.flush();
     const std::string list = read_whole(folder / "fields.pvd");
     EXPECT_NE(list.find("timestep=\"0.35\" part=\"0\" file=\"fields_000003.vtp\""), std::string::npos) << list;
     EXPECT_EQ(list.find("timestep=\"0.3\""), std::string::npos) << list;
@@ -155,23 +194,75 @@ TEST_F(VtkFiles, ResumedSeriesIsWithoutSnapshotsThatSomebodyRemoved)
     std::filesystem::remove(folder / "fields_000002.vtp");
     VtkSeries series(folder, some_provenance(), earlier);
     series.write(particles, 0.3);
+    series.flush();
     EXPECT_EQ(series.size(), 2U);
     const std::string list = read_whole(folder / "fields.pvd");
     EXPECT_NE(list.find("timestep=\"0.3\" part=\"0\" file=\"fields_000003.vtp\""), std::string::npos) << list;
     EXPECT_EQ(list.find("fields_000001"), std::string::npos) << list;
 }
 
+TEST_F(VtkFiles, RunGoesOnWhileASnapshotIsWrittenThatShowsWhatWasTaken)
+{
+    const Vector before = particles.position[7];
+    VtkSeries series(folder, some_provenance());
+    Obstacle obstacle(beside(folder / "fields_000000.vtp"));
+    series.write(particles, 0.0);
+    particles.position.set(7, {1.0, 2.0, 3.0});
+    series.write(particles, 0.1);
+    series.check();
+    EXPECT_FALSE(std::filesystem::exists(folder / "fields_000000.vtp"));
+    write_whole(folder / "first.vtp", obstacle.remove());
+    series.wait();
+    double point[3];
+    read(folder / "first.vtp")->GetPoint(7, point);
+    EXPECT_EQ(point[0], before.x);
+    read(folder / "fields_000001.vtp")->GetPoint(7, point);
+    EXPECT_EQ(point[0], 1.0);
+}
+
+TEST_F(VtkFiles, RunWaitsForTheFirstOfTooManySnapshots)
+{
+    VtkSeries series(folder, some_provenance());
+    Obstacle obstacle(beside(folder / "fields_000000.vtp"));
+    constexpr int most_under_way = 8;
+    for (int k = 0; k < most_under_way; ++k)
+        series.write(particles, k);
+    auto next = std::async(std::launch::async, [&] { series.write(particles, most_under_way); });
+    EXPECT_EQ(next.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    obstacle.remove();
+    next.get();
+    EXPECT_EQ(series.size(), most_under_way + 1U);
+}
+
+TEST_F(VtkFiles, SeriesThatEndsByAnErrorListsWhatIsThere)
+{
+    {
+        VtkSeries series(folder, some_provenance());
+        for (const double time : {0.0, 0.1, 0.2})
+            series.write(particles, time);
+    }
+    EXPECT_NE(read_whole(folder / "fields.pvd").find("fields_000002.vtp"), std::string::npos);
+}
+
 TEST_F(VtkFiles, FullDiskLeavesTheSeriesReadable)
 {
     VtkSeries series(folder, some_provenance());
     series.write(particles, 0.0);
+    series.flush();
     std::string message;
     {
         const FileSizeLimit limit(2048);
-        message = message_of<OutputError>([&] { series.write(particles, 0.1); });
+        message = message_of<OutputError>([&] {
+            series.write(particles, 0.1);
+            series.wait();
+        });
     }
     EXPECT_TRUE(one_line_with(message, {"fields_000001.vtp", "ulimit -f"}));
-    EXPECT_EQ(series.size(), 1U);
+    // Whatever is asked of it from now on says the same: a run does not miss it, and does not go on without a snapshot.
+    EXPECT_EQ(message_of<OutputError>([&] { series.check(); }), message);
+    EXPECT_EQ(message_of<OutputError>([&] { series.write(particles, 0.2); }), message);
+    EXPECT_EQ(message_of<OutputError>([&] { series.flush(); }), message);
+    EXPECT_EQ(message_of<OutputError>([&] { series.until(0.1); }), message);
     EXPECT_FALSE(std::filesystem::exists(folder / "fields_000001.vtp"));
     EXPECT_EQ(read_whole(folder / "fields.pvd").find("fields_000001"), std::string::npos);
 }
