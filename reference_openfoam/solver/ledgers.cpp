@@ -89,9 +89,12 @@ std::string Ledgers::json() const
             entry("closure", volume_closure) + "}";
     if (energy_) {
         const scalar stored = energy_->stored_energy();
+        // what is stored is a sum rounded to 1e-15 of itself: of less than a thousand millionth of it, exchanged with
+        // the outside, a closure would tell the round-off
+        const scalar smallest = 1e-9 * mag(energy_start_);
         text += ", \"energy\": {" + entry("start", energy_start_) + ", " + entry("end", stored) + ", " +
                 entry("in", energy_in_) + ", " + entry("out", energy_out_) + ", " +
-                entry("closure", closure(energy_start_, stored, energy_in_, energy_out_, 1e-12 * mag(energy_start_)));
+                entry("closure", closure(energy_start_, stored, energy_in_, energy_out_, smallest));
         if (scene_.physics.laser) {
             text += ", " + entry("laser_emitted", laser_emitted_) + ", " + entry("laser_expected", laser_expected_) +
                     ", " + entry("laser_absorbed", laser_absorbed_) + ", " +

@@ -16,6 +16,9 @@
 /// beyond them: else viscosity, which acts between cells, would not know of it. Its share of A acts on a flux's change
 /// alone (viscous_stress.hpp).
 ///
+/// With surface tension the faces at a surface have the inertia of the liquid below it to one order more
+/// (surface_inertia.hpp): less of their own acceleration, on the left, and that of the faces across, as a force.
+///
 /// A surface with tension, moved by the last step's fluxes, gives the forces of the next: a leapfrog, of second order
 /// if fluxes are those of the middle of the step that they move it by. Steps that are alike keep them there; where one
 /// is longer by d than the last, they are brought on by ½ d. A run begins with short steps and would else be half a
