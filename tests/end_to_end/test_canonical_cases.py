@@ -81,8 +81,10 @@ def test_the_laser_melts_steel(tiny_runs, solver):
     last = series.load(len(series) - 1)
     melt = (last.liquid_fraction > 0.5) & (last.fraction > 0.5)
     assert melt.sum() > 3
-    # Under the beam's path, and nowhere else but what is thrown off: at 40 μm a particle is a drop.
-    assert np.mean(np.abs(last.position[melt, 1]) < 2e-4) > 0.8
+    # Under the beam's path, and nowhere else; of what lies on the metal one particle, at 40 μm a drop, may be thrown off.
+    beside = melt & (np.abs(last.position[:, 1]) >= 2e-4)
+    assert not (beside & (last.position[:, 2] <= series.load(0).position[:, 2].max())).any()
+    assert beside.sum() <= 1
 
 
 def test_both_solvers_start_from_the_same_amount_of_metal(tiny_runs):

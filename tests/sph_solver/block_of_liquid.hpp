@@ -24,6 +24,15 @@ struct Block
         for_each_pair(neighbourhood.list(), particles, kernel, neighbourhood.moving(), term);
     }
 
+    /// Mean of the particles' places, m.
+    Vector middle() const
+    {
+        Vector mean{};
+        for (Index i = 0; i < particles.count(); ++i)
+            mean += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+        return mean;
+    }
+
     int dimensions;
     Particles particles;
     ScalarField& mobility;

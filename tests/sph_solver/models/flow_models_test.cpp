@@ -312,9 +312,7 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     VectorField& force = particles.add_vector({"force", "N"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     ScalarField& viscosity = particles.add_scalar({"excess_viscosity", "Pa s"});
-    Vector middle{};
-    for (Index i = 0; i < particles.count(); ++i)
-        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+    const Vector middle = block.middle();
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
         particles.velocity.set(i, {p.x + 2.0 * p.z, 0.0, -p.z});
@@ -466,9 +464,7 @@ TEST_P(FlowModels, PackingRaisesDensityWhereVolumesOverlap)
     Particles& particles = block.particles;
     ScalarField& speed = particles.add_scalar({"shifting_speed", "m/s"}, 0.5);
     ScalarField& rate = particles.add_scalar({"packing_rate", "kg/(m3 s)"});
-    Vector middle{};
-    for (Index i = 0; i < particles.count(); ++i)
-        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
+    const Vector middle = block.middle();
     Index inner = 0;
     for (Index i = 0; i < particles.count(); ++i)
         if (norm(particles.position[i] - middle) < norm(particles.position[inner] - middle)) inner = i;
@@ -500,10 +496,9 @@ TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
     ScalarField& no_pressure = particles.add_scalar({"no_pressure", "Pa"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     double top = -1e9;
-    Vector middle{};
+    const Vector middle = block.middle();
     for (Index i = 0; i < particles.count(); ++i) {
         top = std::max(top, particles.position[i].z);
-        middle += (1.0 / static_cast<double>(particles.count())) * particles.position[i];
         particles.velocity.set(i, {particles.position[i].z, 0.0, 0.0});
     }
     for (Index i = 0; i < particles.count(); ++i) {
