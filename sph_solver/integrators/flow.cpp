@@ -141,22 +141,6 @@ void Flow::add_up_forces(const Neighbourhood& neighbourhood)
     neighbourhood.for_each_moving([&](Index i) { force_.set(i, sum_of_pair_forces(i)); });
 }
 
-MechanicalWork Flow::work(Index i, const Vector& mean_velocity, const KickTimes& times) const
-{
-    MechanicalWork work;
-    work.pressure = dot(pressure_force_[i], times.sound * mean_velocity);
-    if (wall_force_) work.imbalance = dot((*wall_force_)[i], times.sound * mean_velocity);
-    work.gravity = particles_.mass[i] * dot(gravity_, times.sound * mean_velocity);
-    if (by_surface_) work.surface = particles_.mass[i] * dot(kick_by_surface(i, times), mean_velocity);
-    if (times.slow == 0.0) return work;
-    const Vector path = times.slow * mean_velocity;
-    work.viscosity = dot(viscous_force_[i], path);
-    if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
-    work.surface +=
-        particles_.mass[i] * dot(acceleration_[i] - acceleration_by_sound(i), path) - work.viscosity - work.artificial;
-    return work;
-}
-
 double Flow::elastic_energy(Index i) const
 {
     const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;

@@ -158,11 +158,10 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
         return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest_density_);
     };
     // de/dρ
-    const auto stiffness = [&] {
-        return parameters_.equation_of_state.pressure(particles_.density[i], rest_density_) /
-               (particles_.density[i] * particles_.density[i]);
+    const auto stiffness = [&](double density) {
+        return parameters_.equation_of_state.pressure(density, rest_density_) / (density * density);
     };
-    const double before = energy(), stiffness_before = stiffness();
+    const double before = energy(), density_before = particles_.density[i];
     const double diffused = diffusion_rate_ ? times.diffusion * (*diffusion_rate_)[i] : 0.0;
     const double shifted =
         shifting_density_rate_ ? times.shifting * ((*shifting_density_rate_)[i] + (*packing_rate_)[i]) : 0.0;
@@ -180,7 +179,8 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
     // What a change of density is worth. Where it was limited, forces have never seen what is cut off: it is worth what
     // the pressures at both ends of the step say, and the limiter answers for the rest.
     double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
-    if (particles_.density[i] != unlimited) worth = 0.5 * particles_.mass[i] * (stiffness_before + stiffness());
+    if (particles_.density[i] != unlimited)
+        worth = 0.5 * particles_.mass[i] * (stiffness(density_before) + stiffness(particles_.density[i]));
     const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
     work.compression = worth * times.flow * (density_rate_[i] - replaced);
     work.imbalance = worth * times.flow * (replaced + density_rate_by_walls_[i]);
@@ -257,23 +257,34 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
     });
 }
 
-/// How a stress on the surface is shared out. It reaches one layer beyond the surface's band.
-void FreeSurfaceFlow::share_surface_stress(const Neighbourhood& neighbourhood)
+/// Clusters whose particles take a share of a stress on the surface: as far as the kernels of the first layer reach.
+std::vector<Index> FreeSurfaceFlow::mark_reach_of_surface_stress(const Neighbourhood& neighbourhood)
 {
     const SurfaceFields& surface = surface_->fields();
     neighbourhood.for_each_moving([&](Index i) { (*stress_share_)[i] = 0.0; });
-    std::vector<Index> band;
+    std::vector<Index> first_layer;
     for (const Index c : neighbourhood.moving())
-        if (!none_in(neighbourhood.list().cluster(c),
-                     [&](Index i) { return mobility_.weight[i] != 0.0 && surface.delta[i] > 0.0; }))
-            band.push_back(c);
-    for_each_pair(
-        neighbourhood.list(), particles_, kernel_, neighbourhood.moving_near(band),
-        SurfaceStressShare{mobility_, correction_, surface.delta, surface.normal, *stress_share_, *stress_direction_});
+        if (!none_in(neighbourhood.list().cluster(c), [&](Index i) {
+                return mobility_.weight[i] != 0.0 && share_of_surface(surface, i, parameters_.smoothing_length) > 0.0;
+            }))
+            first_layer.push_back(c);
+    const std::vector<Index> reached = neighbourhood.moving_near(first_layer);
+    for (const Index c : reached) {
+        const Cluster& cluster = neighbourhood.list().cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (mobility_.weight[i] != 0.0) (*stress_share_)[i] = SurfaceStressShare::wanted;
+    }
+    return reached;
 }
 
-/// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
-/// its mean over the surface everywhere.
+SurfaceStressShare FreeSurfaceFlow::surface_stress_share()
+{
+    const SurfaceFields& surface = surface_->fields();
+    return {mobility_, correction_, surface.delta, surface.normal, *stress_share_, *stress_direction_};
+}
+
+/// The load on the surface carried into the liquid, one step further than the last, and its force; in the same pass
+/// how a stress on the surface is shared out. A run starts with the load's mean over the surface everywhere.
 void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_start)
 {
     const SurfaceFields& surface = surface_->fields();
@@ -300,9 +311,11 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         const double at_depth = (*load_)[i] - fall;
         (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
     });
-    for_each_pair(
-        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-        SurfacePressure{mobility_, particles_.volume, correction_, *carried_load_, *carried_mean_, *carried_gradient_});
+    const SurfacePressure pressure{mobility_, correction_, *carried_load_, *carried_mean_, *carried_gradient_};
+    const auto sum = [&](const auto&... others) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), pressure, others...);
+    };
+    stress_share_ ? sum(surface_stress_share()) : sum();
     neighbourhood.for_each_moving([&](Index i) {
         force_.set(i, force_[i] - particles_.volume[i] * (*carried_gradient_)[i]);
         particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
@@ -351,8 +364,12 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);
-    if (stress_share_) share_surface_stress(neighbourhood);
-    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
+    std::vector<Index> stressed;
+    if (stress_share_) stressed = mark_reach_of_surface_stress(neighbourhood);
+    if (carried_load_)
+        carry_load(neighbourhood, time_step == 0.0);
+    else if (stress_share_)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, stressed, surface_stress_share());
     accelerate(neighbourhood);
 }
 

@@ -2,6 +2,7 @@
 
 #include "integrators/flow.hpp"
 #include "models/shifting_exchange.hpp"
+#include "models/surface_stress.hpp"
 #include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -39,7 +40,8 @@ private:
     MechanicalWork compress(Index i, const CompressionTimes& times);
     void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
-    void share_surface_stress(const Neighbourhood& neighbourhood);
+    std::vector<Index> mark_reach_of_surface_stress(const Neighbourhood& neighbourhood);
+    SurfaceStressShare surface_stress_share();
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);
     void extrapolate_velocity(const Neighbourhood& neighbourhood, bool with_shift);
     void extrapolate_pressure(const Neighbourhood& neighbourhood);

@@ -83,6 +83,8 @@ Simulation::Simulation(Scene scene)
     };
     wall_lower_ = {lower[0] + wall(0), lower[1] + wall(2), lower[2] + wall(4)};
     wall_upper_ = {upper[0] - wall(1), upper[1] - wall(3), upper[2] - wall(5)};
+    for (const double x : {wall_lower_.x, wall_lower_.y, wall_lower_.z, wall_upper_.x, wall_upper_.y, wall_upper_.z})
+        has_walls_ = has_walls_ || std::isfinite(x);
     if (open) escaped_ = &particles.add_scalar({"escaped", "1"});
 }
 
@@ -294,7 +296,7 @@ void Simulation::move(double time_step)
 {
     if (time_step == 0.0) return;
     flow_->drift(neighbourhood_, time_step);
-    hold_before_walls();
+    if (has_walls_) hold_before_walls();
     neighbourhood_.update(*scene_.particles, mobility_);
 }
 

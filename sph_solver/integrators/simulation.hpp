@@ -94,7 +94,7 @@ private:
     Scene scene_;
     ScalarField& mobility_;
     bool has_flow_, has_heat_, melts_, frozen_temperature_;
-    bool heats_every_step_ = false;
+    bool heats_every_step_ = false, has_walls_ = false;
     FlowParameters parameters_;
     TimeStepLimits limits_;
     Neighbourhood neighbourhood_;

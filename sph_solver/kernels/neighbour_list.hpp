@@ -20,6 +20,8 @@ struct Cluster
 {
     Index first;
     Index count;
+
+    unsigned lanes() const { return (1u << count) - 1u; } ///< a bit for each particle
 };
 
 /// Some particles of a cluster: bit k stands for the one at first + k. A list of these is a fifth as long as one of

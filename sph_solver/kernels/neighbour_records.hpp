@@ -65,8 +65,8 @@ inline Index* append(Index* end, const Listed& some)
 #endif
 }
 
-/// Which particles of a cluster a pass does not ignore, a bit for each: found where it is first asked, since a pass
-/// that looks up its neighbours is near few clusters, and each of those is near many others.
+/// Which particles of a cluster a pass does not ignore, a bit for each: found where it is first asked, since a pass may
+/// be near few clusters, and each of those is near many others.
 class LanesOfInterest
 {
 public:
@@ -107,21 +107,13 @@ template <class Record> class NeighboursOfCluster
 {
 public:
     /// From records of all particles.
-    template <class Ignored>
-    SomeRecords<Record> find(std::span<const Listed> near, const Record* records, const Ignored& ignored)
+    template <class Wanted>
+    SomeRecords<Record> find(std::span<const Listed> near, const Record* records, const Wanted& wanted)
     {
         reserve(near);
         Index* end = which_.data();
         for (const Listed& some : near)
-            end = append(end, some);
-        if constexpr (!std::is_null_pointer_v<Ignored>) {
-            Index* kept = which_.data();
-            for (const Index* j = kept; j != end; ++j) {
-                *kept = *j;
-                kept += !ignored(records[*j].far);
-            }
-            end = kept;
-        }
+            end = append(end, {some.first, some.lanes & wanted(some.first)});
         return {records, {which_.data(), end}};
     }
     /// Looked up one by one, where a pass concerns too few for a record of each.

@@ -43,7 +43,7 @@ void for_each_image(const NeighbourList& list, std::span<const ImageRun> runs, c
 /// The particles of a cluster and the kernel: makes a Pair of an offset to a neighbour.
 template <class Kernel> struct PairMaker
 {
-    const Kernel& kernel;
+    typename Kernel::template Formula<Real> kernel;
     double tiny;     ///< added to squares, so that none is zero, m²
     double farthest; ///< square beyond which the kernel is zero, m²
 
@@ -56,7 +56,7 @@ template <class Kernel> struct PairMaker
         Pair pair;
         pair.offset = offset;
         pair.square = square(offset);
-        const auto w = kernel.of_square(pair.square);
+        const auto w = kernel(pair.square);
         pair.kernel = w.value;
         pair.gradient_over_r = w.gradient_over_r;
         pair.weigh(volume);
@@ -95,7 +95,7 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
     const auto* const records = neighbours.records;
     const Index* next = neighbours.which.data();
     const Index* const end = next + neighbours.which.size();
-    const Kernel kernel_of = pair_at.kernel; // copies: nothing that is written below can be thought to change them
+    const auto kernel_of = pair_at.kernel; // copies: nothing that is written below can be thought to change them
     const PlaceLanes here = at;
     // An array for each number of a pair: one that no term asks for is left out. Bare registers, which nothing sets.
     constexpr int most = 32;
@@ -114,7 +114,7 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
             count += may_be_below(r2, pair_at.farthest);
         }
         for (int k = 0; k < count; ++k) {
-            const auto w = kernel_of.of_square(Lanes(square[k]));
+            const auto w = kernel_of(Lanes(square[k]));
             kernel[k] = w.value.values();
             gradient_over_r[k] = w.gradient_over_r.values();
         }
@@ -159,6 +159,7 @@ template <class Kernel, class... Terms>
 ///   bool ignores(const Far&) const           if there is one: true for a neighbour that adds nothing to the sum
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
+///   void ahead(Index first) const            if there is one: fetches what near() and store() will ask for
 ///
 /// Near and Far may be put together of quantities that terms share (quantities.hpp), so that add() says `const auto&
 /// j`. Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
@@ -175,22 +176,20 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     using Record = Neighbour<Terms...>;
     const auto count = static_cast<Index>(clusters.size());
     const double support_squared = list.support() * list.support();
-    const PairMaker<Kernel> pair_at{kernel, 1e-18 * support_squared, (1.0 + 1e-5) * support_squared};
+    const PairMaker<Kernel> pair_at{kernel.template in<Real>(), 1e-18 * support_squared,
+                                    (1.0 + 1e-5) * support_squared};
     const Places places(list, particles.position);
     const std::tuple<const Terms&...> all_terms{terms...};
     const RecordOf<Terms...> record{particles, places, all_terms};
-    const auto ignored = [&] {
-        if constexpr ((Ignores<Terms> && ...))
-            return [&](const auto& far) {
-                return TermsOfCluster<Terms...>::all_ignore(all_terms, far, std::index_sequence_for<Terms...>{});
-            };
-        else
-            return nullptr;
-    }();
+    constexpr bool ignores_some = (Ignores<Terms> && ...);
     std::optional<LanesOfInterest> of_interest;
+    if constexpr (ignores_some) of_interest.emplace(list);
     const auto wanted = [&](Index first) -> std::uint32_t {
-        if constexpr ((Ignores<Terms> && ...))
-            return of_interest->of(first, [&](Index j) { return ignored(record.far(j)); });
+        if constexpr (ignores_some)
+            return of_interest->of(first, [&](Index j) {
+                return TermsOfCluster<Terms...>::all_ignore(all_terms, record.far(j),
+                                                            std::index_sequence_for<Terms...>{});
+            });
         else
             return ~0u;
     };
@@ -203,8 +202,6 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             new (made + j) Record(record(j, record.far(j)));
         records = made;
     }
-    else if constexpr ((Ignores<Terms> && ...))
-        of_interest.emplace(list);
     constexpr Index clusters_at_a_time = 16;
     Stretches stretches(count, clusters_at_a_time);
     // A few clusters are done sooner than threads are woken.
@@ -216,9 +213,12 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                 for (Index k = some.begin; k < some.end; ++k) {
                     const Index c = clusters[static_cast<std::size_t>(k)];
                     const Cluster cluster = list.cluster(c);
+                    if (k + 1 < some.end)
+                        TermsOfCluster<Terms...>::ahead(all_terms,
+                                                        list.cluster(clusters[static_cast<std::size_t>(k + 1)]).first);
                     if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
                     const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
-                    const auto found = records ? neighbours.find(list.near(c), records, ignored)
+                    const auto found = records ? neighbours.find(list.near(c), records, wanted)
                                                : neighbours.look_up(list.near(c), record, wanted);
                     auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
                     if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);

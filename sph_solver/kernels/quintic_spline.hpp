@@ -18,45 +18,59 @@ namespace cupel
 class QuinticSpline
 {
 public:
-    QuinticSpline(double smoothing_length, int dimensions)
-        : inverse_h_(1.0 / smoothing_length), support_(3.0 * smoothing_length)
+    QuinticSpline(double smoothing_length, int dimensions) : support_(3.0 * smoothing_length)
     {
         const double h = smoothing_length;
         const double factor =
             dimensions == 2 ? 7.0 / (478.0 * std::numbers::pi * h * h) : 1.0 / (120.0 * std::numbers::pi * h * h * h);
         for (std::size_t n = 0; n < 3; ++n) {
             const double scale = std::pow(5.0 * factor / h * weights[n], 0.25);
-            pieces_[n] = {scale * static_cast<double>(3 - n), scale / h, factor * weights[n] / std::pow(scale, 5.0)};
+            formula_.pieces[n] = {scale * static_cast<double>(3 - n), scale / h,
+                                  factor * weights[n] / std::pow(scale, 5.0)};
         }
     }
 
-    double smoothing_length() const { return 1.0 / inverse_h_; }
+    double smoothing_length() const { return support_ / 3.0; }
     double support() const { return support_; }
 
     /// Of r² in m², above zero; zero beyond the support. Each piece is scaled so that its fourth power is its part of
     /// dW/dr and needs no factor.
-    template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
+    template <class Number> struct Formula
     {
-        const Scalar inverse_r = reciprocal_root_of_positive(square);
-        const Scalar r = square * inverse_r;
-        const auto piece = [&](const Piece& p) { return maximum(p.height - p.slope * r, Scalar{}); };
-        const Scalar a = piece(pieces_[0]), b = piece(pieces_[1]), c = piece(pieces_[2]);
-        const Scalar a4 = a * a * (a * a), b4 = b * b * (b * b), c4 = c * c * (c * c);
-        return {a4 * (pieces_[0].value * a) - b4 * (pieces_[1].value * b) + c4 * (pieces_[2].value * c),
-                (b4 - a4 - c4) * inverse_r};
+        /// (height − slope r)₊, and what its fifth power is multiplied by for W.
+        struct Piece
+        {
+            Number height, slope, value;
+        };
+        std::array<Piece, 3> pieces{};
+
+        template <class Scalar> KernelValue<Scalar> operator()(const Scalar& square) const
+        {
+            const Scalar inverse_r = reciprocal_root_of_positive(square);
+            const Scalar r = square * inverse_r;
+            const auto piece = [&](const Piece& p) { return maximum(p.height - p.slope * r, Scalar{}); };
+            const Scalar a = piece(pieces[0]), b = piece(pieces[1]), c = piece(pieces[2]);
+            const Scalar a4 = a * a * (a * a), b4 = b * b * (b * b), c4 = c * c * (c * c);
+            return {a4 * (pieces[0].value * a) - b4 * (pieces[1].value * b) + c4 * (pieces[2].value * c),
+                    (b4 - a4 - c4) * inverse_r};
+        }
+    };
+    template <class Number> Formula<Number> in() const
+    {
+        Formula<Number> formula;
+        for (std::size_t n = 0; n < 3; ++n) {
+            const auto& piece = formula_.pieces[n];
+            formula.pieces[n] = {Number(piece.height), Number(piece.slope), Number(piece.value)};
+        }
+        return formula;
     }
-    KernelValue<double> operator()(double r) const { return of_square(maximum(r * r, 1e-30 * support_ * support_)); }
+    KernelValue<double> operator()(double r) const { return formula_(maximum(r * r, 1e-30 * support_ * support_)); }
 
 private:
-    /// (height − slope r)₊, and what its fifth power is multiplied by for W.
-    struct Piece
-    {
-        double height, slope, value;
-    };
     static constexpr std::array<double, 3> weights{1.0, 6.0, 15.0};
 
-    double inverse_h_, support_;
-    std::array<Piece, 3> pieces_{};
+    double support_;
+    Formula<double> formula_;
 };
 
 } // namespace cupel

@@ -31,35 +31,45 @@ namespace cupel
 class RootFree
 {
 public:
-    RootFree(double smoothing_length, int dimensions)
-        : support_(3.0 * smoothing_length), inverse_square_(1.0 / (support_ * support_))
+    RootFree(double smoothing_length, int dimensions) : support_(3.0 * smoothing_length)
     {
         const double half = 0.5 * dimensions;
         const double six = std::tgamma(7.0) / std::tgamma(7.0 + half);
         const double nine = share * std::tgamma(10.0) / std::tgamma(10.0 + half);
         const double volume = dimensions == 2 ? support_ * support_ : support_ * support_ * support_;
-        value_ = 1.0 / (std::pow(std::numbers::pi, half) * (six + nine) * volume);
-        gradient_ = 12.0 * value_ * inverse_square_;
-        value_odd_ = -share * value_;
-        gradient_odd_ = -1.5 * share * gradient_;
+        const double value = 1.0 / (std::pow(std::numbers::pi, half) * (six + nine) * volume);
+        const double inverse_square = 1.0 / (support_ * support_), gradient = 12.0 * value * inverse_square;
+        formula_ = {inverse_square, value, -share * value, gradient, -1.5 * share * gradient};
     }
 
     double smoothing_length() const { return support_ / 3.0; }
     double support() const { return support_; }
 
     /// Of r² in m²; zero beyond the support.
-    template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
+    template <class Number> struct Formula
     {
-        const Scalar t = minimum(inverse_square_ * square - 1.0, Scalar{}); // −t₊
-        const Scalar t2 = t * t, t3 = t2 * t;
-        return {(t3 * t3) * (value_ + value_odd_ * t3), (t2 * t3) * (gradient_ + gradient_odd_ * t3)};
+        Number inverse_square, value, value_odd, gradient, gradient_odd;
+
+        template <class Scalar> KernelValue<Scalar> operator()(const Scalar& square) const
+        {
+            const Scalar t = minimum(inverse_square * square - Number(1), Scalar{}); // −t₊
+            const Scalar t2 = t * t, t3 = t2 * t;
+            return {(t3 * t3) * (value + value_odd * t3), (t2 * t3) * (gradient + gradient_odd * t3)};
+        }
+    };
+    template <class Number> Formula<Number> in() const
+    {
+        const auto& f = formula_;
+        return {Number(f.inverse_square), Number(f.value), Number(f.value_odd), Number(f.gradient),
+                Number(f.gradient_odd)};
     }
-    KernelValue<double> operator()(double r) const { return of_square(r * r); }
+    KernelValue<double> operator()(double r) const { return formula_(r * r); }
 
 private:
     static constexpr double share = 1.5; ///< of t⁹
 
-    double support_, inverse_square_, value_, value_odd_, gradient_, gradient_odd_;
+    double support_;
+    Formula<double> formula_;
 };
 
 } // namespace cupel

@@ -22,9 +22,21 @@ public:
     double support() const { return root_free_.support(); }
 
     /// Of r² in m², above zero; zero beyond the support.
-    template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
+    template <class Number> struct Formula
     {
-        return is_spline_ ? spline_.of_square(square) : root_free_.of_square(square);
+        RootFree::Formula<Number> root_free;
+        QuinticSpline::Formula<Number> spline;
+        bool is_spline;
+
+        template <class Scalar> KernelValue<Scalar> operator()(const Scalar& square) const
+        {
+            return is_spline ? spline(square) : root_free(square);
+        }
+    };
+    /// In the precision that pairs are summed in: constants that a loop had to convert would hold it up.
+    template <class Number> Formula<Number> in() const
+    {
+        return {root_free_.in<Number>(), spline_.in<Number>(), is_spline_};
     }
     KernelValue<double> operator()(double r) const { return is_spline_ ? spline_(r) : root_free_(r); }
 

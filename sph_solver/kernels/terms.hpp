@@ -90,6 +90,14 @@ template <class... Terms> struct TermsOfCluster
     {
         add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
     }
+    /// Fetches what near() and store() of a later cluster will ask for, where a term says what.
+    static void ahead(const std::tuple<const Terms&...>& all, Index first)
+    {
+        const auto of = [&](const auto& term) {
+            if constexpr (requires { term.ahead(first); }) term.ahead(first);
+        };
+        std::apply([&](const Terms&... each) { (of(each), ...); }, all);
+    }
     void store(const Cluster& cluster, const Sums& sums) const
     {
         store(cluster, sums, std::index_sequence_for<Terms...>{});

@@ -18,30 +18,41 @@ namespace cupel
 class WendlandC2
 {
 public:
-    WendlandC2(double smoothing_length, int dimensions)
-        : half_inverse_h_(0.5 / smoothing_length), support_(2.0 * smoothing_length),
-          factor_(dimensions == 2
-                      ? 7.0 / (4.0 * std::numbers::pi * smoothing_length * smoothing_length)
-                      : 21.0 / (16.0 * std::numbers::pi * smoothing_length * smoothing_length * smoothing_length)),
-          scale_(-std::cbrt(20.0 * factor_ * half_inverse_h_ * half_inverse_h_)),
-          value_factor_(factor_ / (scale_ * scale_ * scale_ * scale_))
-    {}
+    WendlandC2(double smoothing_length, int dimensions) : support_(2.0 * smoothing_length)
+    {
+        const double h = smoothing_length, slope = 1.0 / support_;
+        const double factor =
+            dimensions == 2 ? 7.0 / (4.0 * std::numbers::pi * h * h) : 21.0 / (16.0 * std::numbers::pi * h * h * h);
+        const double scale = -std::cbrt(20.0 * factor * slope * slope);
+        formula_ = {scale, scale * slope, factor / (scale * scale * scale * scale), 4.0 * slope};
+    }
 
     double smoothing_length() const { return 0.5 * support_; }
     double support() const { return support_; }
 
     /// Of r² in m², above zero; zero beyond the support. (1 − q/2)₊ is scaled so that its cube is (1/r) dW/dr.
-    template <class Scalar> KernelValue<Scalar> of_square(const Scalar& square) const
+    template <class Number> struct Formula
     {
-        const Scalar r = root_of_positive(square);
-        const Scalar t = minimum(scale_ - (scale_ * half_inverse_h_) * r, Scalar{});
-        const Scalar t2 = t * t;
-        return {(value_factor_ * t2) * (t2 * (1.0 + (4.0 * half_inverse_h_) * r)), t2 * t};
+        Number scale, slope, value, twice_inverse_h;
+
+        template <class Scalar> KernelValue<Scalar> operator()(const Scalar& square) const
+        {
+            const Scalar r = root_of_positive(square);
+            const Scalar t = minimum(scale - slope * r, Scalar{});
+            const Scalar t2 = t * t;
+            return {(value * t2) * (t2 * (Number(1) + twice_inverse_h * r)), t2 * t};
+        }
+    };
+    template <class Number> Formula<Number> in() const
+    {
+        const auto& f = formula_;
+        return {Number(f.scale), Number(f.slope), Number(f.value), Number(f.twice_inverse_h)};
     }
-    KernelValue<double> operator()(double r) const { return of_square(maximum(r * r, 1e-30 * support_ * support_)); }
+    KernelValue<double> operator()(double r) const { return formula_(maximum(r * r, 1e-30 * support_ * support_)); }
 
 private:
-    double half_inverse_h_, support_, factor_, scale_, value_factor_;
+    double support_;
+    Formula<double> formula_;
 };
 
 } // namespace cupel

@@ -110,6 +110,10 @@ inline LaneMask operator&(const LaneMask& a, const LaneMask& b)
 {
     return {a.bits & b.bits};
 }
+inline LaneMask operator|(const LaneMask& a, const LaneMask& b)
+{
+    return {a.bits | b.bits};
+}
 
 /// yes where the mask is set, no elsewhere.
 inline Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no)
@@ -159,6 +163,24 @@ inline Lanes minimum(const Lanes& a, const Lanes& b)
 }
 #endif
 
+// The same of one number, for formulas that are asked for either.
+inline double select(bool which, double yes, double no)
+{
+    return which ? yes : no;
+}
+inline double clamp(double a, double least, double most)
+{
+    return a < least ? least : most < a ? most : a;
+}
+inline double square_root(double a)
+{
+    return std::sqrt(a);
+}
+
+inline Lanes clamp(const Lanes& a, double least, double most)
+{
+    return minimum(maximum(a, Lanes(least)), Lanes(most));
+}
 inline Lanes square_root(const Lanes& a)
 {
     Lanes::Register root;
@@ -273,11 +295,32 @@ inline Lanes load_lanes(const double* values)
     return Lanes(lanes);
 }
 
-/// Writes the first `count` lanes only: what follows belongs to the next cluster.
-inline void store_lanes(double* values, const Lanes& lanes, int count)
+/// Writes the lanes whose bits are set in `which` and nothing else.
+inline void store_lanes(double* values, unsigned which, const Lanes& lanes)
 {
-    for (int lane = 0; lane < count; ++lane)
-        values[lane] = lanes[lane];
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Real) == 8) {
+        // Without a mask what is stored can be loaded again at once.
+        if (which == 0xff) return _mm512_storeu_pd(values, doubles(lanes));
+        _mm512_mask_storeu_pd(values, static_cast<__mmask8>(which), doubles(lanes));
+    }
+    else {
+        using Half = float __attribute__((vector_size(32)));
+        Half halves[2];
+        const Lanes::Register all = lanes.values();
+        std::memcpy(halves, &all, sizeof halves);
+        for (const Half& half : halves) {
+            using Wide = double __attribute__((vector_size(64)));
+            const auto wide = reinterpret_cast<__m512d>(__builtin_convertvector(half, Wide));
+            _mm512_mask_storeu_pd(values, static_cast<__mmask8>(which), wide);
+            values += 8;
+            which >>= 8;
+        }
+    }
+#else
+    for (int lane = 0; lane < lane_count; ++lane)
+        if (which >> lane & 1u) values[lane] = lanes[lane];
+#endif
 }
 
 using VectorLanes = VectorOf<Lanes>;

@@ -98,7 +98,7 @@ struct VelocityDivergence
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_lanes(divergence, cluster.first, cluster.count, sum.divergence);
+        store_lanes(divergence, cluster.first, cluster.lanes(), sum.divergence);
     }
 };
 

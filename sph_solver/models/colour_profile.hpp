@@ -56,12 +56,11 @@ public:
     {
         const bool outside = colour < 0.5;
         const double inside = outside ? 1.0 - colour : colour;
+        if (inside >= colour_.back()) return outside ? -support_ : support_;
         const auto above = std::upper_bound(colour_.begin(), colour_.end(), inside);
-        double s = support_;
-        if (above != colour_.end() && above != colour_.begin()) {
-            const auto k = static_cast<std::size_t>(above - colour_.begin()) - 1;
-            s = (static_cast<double>(k) + (inside - colour_[k]) / (colour_[k + 1] - colour_[k])) * step_;
-        }
+        // What is no number stays none.
+        const auto k = std::min(static_cast<std::size_t>(above - colour_.begin()), intervals) - 1;
+        const double s = (static_cast<double>(k) + (inside - colour_[k]) / (colour_[k + 1] - colour_[k])) * step_;
         return outside ? -s : s;
     }
 

@@ -42,6 +42,7 @@ struct Continuity
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, density, density_rate, by_walls); }
     Near near(Index first) const { return {lanes(density, first), lanes(velocity, first)}; }
     Far far(Index j) const { return {real(mobility.weight[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -51,18 +52,14 @@ struct Continuity
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
-        store_if(density_rate, cluster, i.density * sum.divergence, liquid);
-        store_if(by_walls, cluster, i.density * sum.walls, liquid);
-        if (!surface_delta) return;
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index k = cluster.first + lane;
-            if (mobility.weight[k] == 0.0) continue;
-            const double partner = density_rate[k];
-            if ((*surface_delta)[k] > 0.0)
-                density_rate[k] = -density[k] * (gradient.x[k].x + gradient.y[k].y + gradient.z[k].z);
-            if (replaced) (*replaced)[k] = density_rate[k] - partner;
-        }
+        const unsigned liquid = mobility.moving_in(cluster);
+        const Lanes partner = i.density * sum.divergence;
+        store_lanes(by_walls, cluster.first, liquid, i.density * sum.walls);
+        if (!surface_delta) return store_lanes(density_rate, cluster.first, liquid, partner);
+        const auto [u, v, w] = gradient.of_cluster(cluster.first);
+        const Lanes rate = select(lanes(*surface_delta, cluster.first) > 0.0, -i.density * (u.x + v.y + w.z), partner);
+        store_lanes(density_rate, cluster.first, liquid, rate);
+        if (replaced) store_lanes(*replaced, cluster.first, liquid, rate - partner);
     }
 };
 

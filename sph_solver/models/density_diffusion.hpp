@@ -17,7 +17,7 @@ struct DensityDiffusion
     Mobility mobility;
     const ScalarField& density;
     const VectorField& density_gradient;
-    double diffusivity;        ///< δ h c₀, m²/s
+    double diffusivity; ///< δ h c₀, m²/s
     ScalarField& density_rate;
 
     template <class Scalar> struct DensityGradient
@@ -32,6 +32,7 @@ struct DensityDiffusion
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, density_gradient, density_rate); }
     Near near(Index first) const { return {lanes(density, first), lanes(density_gradient, first)}; }
     Far far(Index j) const { return {real(mobility.weight[j]), real(density[j]), real(density_gradient[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -43,9 +44,7 @@ struct DensityDiffusion
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-            if (mobility.weight[cluster.first + lane] != 0.0)
-                density_rate[cluster.first + lane] = 2.0 * diffusivity * sum.diffusion[lane];
+        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster), Lanes(2.0 * diffusivity) * sum.diffusion);
     }
 };
 

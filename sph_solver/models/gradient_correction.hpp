@@ -25,51 +25,65 @@ struct CorrectionMatrix
                 field("correction_yy"), field("correction_yz"), field("correction_zz")};
     }
     Symmetric3<double> operator[](Index i) const { return {xx[i], xy[i], xz[i], yy[i], yz[i], zz[i]}; }
-    void set(Index i, const Symmetric3<double>& m) const
+    Symmetric3<Lanes> of_cluster(Index first) const
     {
-        xx[i] = m.xx;
-        xy[i] = m.xy;
-        xz[i] = m.xz;
-        yy[i] = m.yy;
-        yz[i] = m.yz;
-        zz[i] = m.zz;
+        return {lanes(xx, first), lanes(xy, first), lanes(xz, first),
+                lanes(yy, first), lanes(yz, first), lanes(zz, first)};
+    }
+    void store(Index first, unsigned which, const Symmetric3<Lanes>& m) const
+    {
+        store_lanes(xx, first, which, m.xx);
+        store_lanes(xy, first, which, m.xy);
+        store_lanes(xz, first, which, m.xz);
+        store_lanes(yy, first, which, m.yy);
+        store_lanes(yz, first, which, m.yz);
+        store_lanes(zz, first, which, m.zz);
     }
 };
 
+inline void prefetch(const CorrectionMatrix& l, Index first)
+{
+    prefetch_all(first, l.xx, l.xy, l.xz, l.yy, l.yz, l.zz);
+}
+
 /// Inverse of a symmetric matrix; the identity where its determinant is below 10⁻³ of a full neighbourhood's. In two
 /// dimensions the y row is left out.
-inline Symmetric3<double> safe_inverse(const Symmetric3<double>& m, int dimensions)
+template <class Scalar> Symmetric3<Scalar> safe_inverse(const Symmetric3<Scalar>& m, int dimensions)
 {
     constexpr double smallest = 1e-3;
-    constexpr Symmetric3<double> identity{1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+    const Scalar zero(0.0), one(1.0);
+    const auto inverse = [&](const Scalar& determinant, const Symmetric3<Scalar>& adjugate) {
+        const auto exists = determinant * determinant > Scalar(smallest * smallest);
+        const Scalar scale = one / determinant;
+        const auto diagonal = [&](const Scalar& a) { return select(exists, scale * a, one); };
+        const auto other = [&](const Scalar& a) { return select(exists, scale * a, zero); };
+        const auto& a = adjugate;
+        return Symmetric3<Scalar>{diagonal(a.xx), other(a.xy), other(a.xz),
+                                  diagonal(a.yy), other(a.yz), diagonal(a.zz)};
+    };
     if (dimensions == 2) {
-        const double determinant = m.xx * m.zz - m.xz * m.xz;
-        if (!(std::abs(determinant) > smallest)) return identity;
-        return {m.zz / determinant, 0.0, -m.xz / determinant, 0.0, 0.0, m.xx / determinant};
+        auto flat = inverse(m.xx * m.zz - m.xz * m.xz, {m.zz, zero, zero - m.xz, zero, zero, m.xx});
+        flat.yy = zero;
+        return flat;
     }
-    const double c00 = m.yy * m.zz - m.yz * m.yz, c01 = m.xz * m.yz - m.xy * m.zz, c02 = m.xy * m.yz - m.xz * m.yy;
-    const double determinant = m.xx * c00 + m.xy * c01 + m.xz * c02;
-    if (!(std::abs(determinant) > smallest)) return identity;
-    const double inverse = 1.0 / determinant;
-    return {c00 * inverse,
-            c01 * inverse,
-            c02 * inverse,
-            (m.xx * m.zz - m.xz * m.xz) * inverse,
-            (m.xy * m.xz - m.xx * m.yz) * inverse,
-            (m.xx * m.yy - m.xy * m.xy) * inverse};
+    const Symmetric3<Scalar> adjugate{m.yy * m.zz - m.yz * m.yz, m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
+                                      m.xx * m.zz - m.xz * m.xz, m.xy * m.xz - m.xx * m.yz, m.xx * m.yy - m.xy * m.xy};
+    return inverse(m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz, adjugate);
 }
 
 /// L − 1, and less of it where neighbours are few: all of it where det L⁻¹ is above 0.15 (an edge of three faces has
 /// 0.13, a plane surface 0.3), nothing below 0.05. In two dimensions the y row is zero.
-inline Symmetric3<double> trusted_excess(const Symmetric3<double>& l)
+template <class Scalar> Symmetric3<Scalar> trusted_excess(const Symmetric3<Scalar>& l)
 {
-    const bool flat = l.yy == 0.0;
-    const double determinant = flat ? l.xx * l.zz - l.xz * l.xz
-                                    : l.xx * (l.yy * l.zz - l.yz * l.yz) - l.xy * (l.xy * l.zz - l.yz * l.xz) +
-                                          l.xz * (l.xy * l.yz - l.yy * l.xz);
-    const double share = determinant > 0.0 ? std::clamp(10.0 / determinant - 0.5, 0.0, 1.0) : 0.0;
-    return {share * (l.xx - 1.0), share * l.xy,        share * l.xz, flat ? 0.0 : share * (l.yy - 1.0),
-            share * l.yz,         share * (l.zz - 1.0)};
+    const Scalar zero(0.0), one(1.0);
+    const auto deep = l.yy * l.yy > zero;
+    const Scalar determinant = select(deep,
+                                      l.xx * (l.yy * l.zz - l.yz * l.yz) - l.xy * (l.xy * l.zz - l.yz * l.xz) +
+                                          l.xz * (l.xy * l.yz - l.yy * l.xz),
+                                      l.xx * l.zz - l.xz * l.xz);
+    const Scalar share = select(determinant > zero, clamp(Scalar(10.0) / determinant - Scalar(0.5), 0.0, 1.0), zero);
+    return {share * (l.xx - one), share * l.xy,        share * l.xz, select(deep, share * (l.yy - one), zero),
+            share * l.yz,         share * (l.zz - one)};
 }
 
 struct GradientCorrection
@@ -86,6 +100,7 @@ struct GradientCorrection
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, mobility.weight, matrix); }
     Near near(Index) const { return {}; }
     void add(const Near&, Index, const Pair& pair, Sum& sum) const
     {
@@ -93,12 +108,7 @@ struct GradientCorrection
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto& m = sum.moment;
-        for (int lane = 0; lane < cluster.count; ++lane)
-            if (mobility.weight[cluster.first + lane] != 0.0)
-                matrix.set(
-                    cluster.first + lane,
-                    safe_inverse({m.xx[lane], m.xy[lane], m.xz[lane], m.yy[lane], m.yz[lane], m.zz[lane]}, dimensions));
+        matrix.store(cluster.first, mobility.moving_in(cluster), safe_inverse(sum.moment, dimensions));
     }
 };
 
@@ -127,6 +137,7 @@ struct ScalarGradient
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, value, raw_gradient); }
     Near near(Index first) const { return {lanes(value, first)}; }
     Far far(Index j) const { return {real(value[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -135,7 +146,7 @@ struct ScalarGradient
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_if(raw_gradient, cluster, sum.gradient, [&](Index i) { return mobility.weight[i] != 0.0; });
+        store_lanes(raw_gradient, cluster.first, mobility.moving_in(cluster), sum.gradient);
     }
 };
 

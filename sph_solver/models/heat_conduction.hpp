@@ -58,7 +58,8 @@ struct HeatConduction
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        store_if(power, cluster, i.volume * i.correction * sum.power, [&](Index k) { return conductivity[k] > 0.0; });
+        store_lanes(power, cluster.first, lanes_where(cluster, [&](Index k) { return conductivity[k] > 0.0; }),
+                    i.volume * i.correction * sum.power);
     }
 };
 

@@ -34,6 +34,10 @@ struct FreeSurfaceMomentum
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, mobility.weight, volume, pressure, velocity, pressure_force, viscous_force, wall_force);
+    }
     Near near(Index first) const { return {lanes(pressure, first), lanes(velocity, first)}; }
     Far far(Index j) const { return {real(mobility.weight[j]), real(pressure[j]), real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -44,11 +48,11 @@ struct FreeSurfaceMomentum
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        const unsigned liquid = mobility.moving_in(cluster);
         const Lanes volume_i = lanes(volume, cluster.first);
-        store_if(pressure_force, cluster, volume_i * sum.push, liquid);
-        store_if(viscous_force, cluster, (Lanes(2.0 * viscosity) * volume_i) * sum.drag, liquid);
-        store_if(wall_force, cluster, volume_i * sum.walls, liquid);
+        store_lanes(pressure_force, cluster.first, liquid, volume_i * sum.push);
+        store_lanes(viscous_force, cluster.first, liquid, (Lanes(2.0 * viscosity) * volume_i) * sum.drag);
+        store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
     }
 };
 
@@ -107,9 +111,9 @@ struct TwoPhaseMomentum
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto liquid = [&](Index k) { return mobility.weight[k] != 0.0; };
-        store_if(pressure_force, cluster, sum.pressure, liquid);
-        store_if(viscous_force, cluster, sum.viscous, liquid);
+        const unsigned liquid = mobility.moving_in(cluster);
+        store_lanes(pressure_force, cluster.first, liquid, sum.pressure);
+        store_lanes(viscous_force, cluster.first, liquid, sum.viscous);
     }
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "models/term.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -35,14 +33,14 @@ struct Packing
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, density, density_rate); }
     Near near(Index) const { return {}; }
     void add(const Near&, Index, const Pair& pair, Sum& sum) const { sum.packing += pair.volume_kernel; }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-            if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0)
-                density_rate[i] =
-                    speed[i] / smoothing_length * density[i] * std::clamp(sum.packing[lane] - 1.0, -0.1, 0.1);
+        const Lanes rate = Lanes(1.0 / smoothing_length) * lanes(speed, cluster.first) * lanes(density, cluster.first);
+        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster),
+                    rate * clamp(sum.packing - 1.0, -0.1, 0.1));
     }
 };
 

@@ -43,8 +43,8 @@ struct PlainFlow
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const Lanes rho = lanes(density, cluster.first);
-        store_lanes(density_rate, cluster.first, cluster.count, rho * sum.divergence);
-        store_lanes(acceleration, cluster.first, cluster.count,
+        store_lanes(density_rate, cluster.first, cluster.lanes(), rho * sum.divergence);
+        store_lanes(acceleration, cluster.first, cluster.lanes(),
                     (1.0 / rho) * (sum.push + Lanes(2.0 * viscosity) * sum.drag));
     }
 };

@@ -11,9 +11,11 @@ namespace cupel::inline CUPEL_ENGINE
 {
 
 /// U = min(20 s h γ̇, U_greatest), of which shifting velocities are a share      [m/s]
-inline double shifting_speed(double strength, double smoothing_length, double strain_rate, double greatest)
+template <class Scalar>
+Scalar shifting_speed(double strength, double smoothing_length, const Scalar& strain_rate, double greatest)
 {
-    return std::min(20.0 * strength * smoothing_length * strain_rate, greatest);
+    const Scalar speed = Scalar(20.0 * strength * smoothing_length) * strain_rate;
+    return select(speed < Scalar(greatest), speed, Scalar(greatest));
 }
 
 /// Shifting velocity (Lind et al. 2012, with the pairing correction of Sun et al. 2017), scaled by the local strain:
@@ -44,40 +46,43 @@ struct ShiftingVelocity
     ScalarField& inner_speed; ///< U where liquid is neither spray nor in the surface's band, elsewhere zero, m/s
 
     struct Near
-    {};
+    {
+        Lanes closeness; ///< over the kernel: 1/W(Δx)
+    };
     struct Sum
     {
         VectorLanes concentration{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index) const { return {}; }
-    void add(const Near&, Index, const Pair& pair, Sum& sum) const
+    void ahead(Index first) const
     {
-        const Lanes closeness = (1.0 / kernel_at_spacing) * pair.kernel;
+        prefetch_all(first, mass, companions, *colour_gradient, surface_delta, shift, inner_speed);
+    }
+    Near near(Index) const { return {1.0 / kernel_at_spacing}; }
+    void add(const Near& i, Index, const Pair& pair, Sum& sum) const
+    {
+        const Lanes closeness = i.closeness * pair.kernel;
         const Lanes square = closeness * closeness;
         sum.concentration += (1.0 + 0.2 * square * square) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0) continue;
-            const bool spray = companions[i] < fewest_companions;
-            const double greatest =
-                shifting_speed(strength, smoothing_length, velocity_gradient.strain_rate(i), greatest_speed);
-            const double speed = spray ? 0.0 : exchange_balance(mass[i], lattice_mass) * greatest;
-            inner_speed[i] = spray || surface_delta[i] > 0.0 ? 0.0 : greatest;
-            Vector u = (-2.0 * smoothing_length * speed) *
-                       Vector{sum.concentration.x[lane], sum.concentration.y[lane], sum.concentration.z[lane]};
-            const double limit = 0.5 * speed;
-            const double magnitude = norm(u);
-            if (magnitude > limit) u = (limit / magnitude) * u;
-            const Vector gradient = (*colour_gradient)[i];
-            const double slope = norm(gradient);
-            if (slope > tangential_above) u -= (dot(u, gradient) / (slope * slope)) * gradient;
-            shift.set(i, u);
-        }
+        const Index first = cluster.first;
+        const unsigned liquid = mobility.moving_in(cluster);
+        const Lanes zero(0.0), one(1.0);
+        const LaneMask spray = lanes(companions, first) < fewest_companions;
+        const Lanes greatest =
+            shifting_speed(strength, smoothing_length, velocity_gradient.strain_rates(first), greatest_speed);
+        const Lanes speed = select(spray, zero, exchange_balance(lanes(mass, first), lattice_mass) * greatest);
+        store_lanes(inner_speed, first, liquid, select(spray | (lanes(surface_delta, first) > zero), zero, greatest));
+        VectorLanes u = (Lanes(-2.0 * smoothing_length) * speed) * sum.concentration;
+        const Lanes limit = 0.5 * speed, magnitude = square_root(dot(u, u));
+        u = select(magnitude > limit, limit / magnitude, one) * u;
+        const VectorLanes gradient = lanes(*colour_gradient, first);
+        const Lanes slope = dot(gradient, gradient);
+        u -= select(slope > tangential_above * tangential_above, dot(u, gradient) / slope, zero) * gradient;
+        store_lanes(shift, first, liquid, u);
     }
 };
 

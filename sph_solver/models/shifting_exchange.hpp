@@ -9,9 +9,10 @@ namespace cupel::inline CUPEL_ENGINE
 {
 
 /// b = max(0, 1 − 5 |m/m₀ − 1|): a particle that has lost or gained a fifth of its mass exchanges no more of it.
-inline double exchange_balance(double mass, double lattice_mass)
+template <class Scalar> Scalar exchange_balance(const Scalar& mass, double lattice_mass)
 {
-    return std::clamp(1.0 - 5.0 * std::abs(mass / lattice_mass - 1.0), 0.0, 1.0);
+    const Scalar one(1.0), excess = Scalar(1.0 / lattice_mass) * mass - one;
+    return clamp(one - Scalar(5.0) * select(excess > Scalar(0.0), excess, -excess), 0.0, 1.0);
 }
 
 /// What a particle that moves with v + δu exchanges with its neighbours (arbitrary Lagrangian-Eulerian form, after
@@ -65,6 +66,11 @@ template <bool with_enthalpy> struct ShiftingExchange
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, volume, shift, mass, speed, balance, density_rate, mass_rate, momentum_rate);
+        if constexpr (with_enthalpy) prefetch_all(first, *enthalpy, *energy_rate);
+    }
     Near near(Index first) const
     {
         return {lanes(density, first),
@@ -89,10 +95,10 @@ template <bool with_enthalpy> struct ShiftingExchange
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const Lanes balanced = minimum(i.balance, Lanes(j.balance));
-        const VectorLanes weight = balanced * pair.volume_gradient;
-        const Lanes other = dot(broadcast(j.shift), weight), own = dot(i.shift, weight);
+        const Lanes other = balanced * dot(broadcast(j.shift), pair.volume_gradient);
+        const Lanes own = balanced * dot(i.shift, pair.volume_gradient);
         const Lanes gained = j.density * other, lost = i.density * own;
-        sum.density += gained + lost - i.density * (other - own);
+        sum.density += (gained - i.density * other) + 2.0 * lost;
         const Lanes rate = Lanes(real(evening)) * (1.0 - balanced) * minimum(i.speed, Lanes(j.speed));
         const Lanes evened = (rate * (i.mass - j.mass)) * pair.volume_gradient_over_r;
         const Lanes exchanged = gained + lost + evened;
@@ -104,14 +110,12 @@ template <bool with_enthalpy> struct ShiftingExchange
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0) continue;
-            density_rate[i] = sum.density[lane];
-            mass_rate[i] = volume[i] * sum.mass[lane];
-            if constexpr (with_enthalpy) (*energy_rate)[i] = volume[i] * sum.energy[lane];
-            momentum_rate.set(i, volume[i] * Vector{sum.momentum.x[lane], sum.momentum.y[lane], sum.momentum.z[lane]});
-        }
+        const unsigned liquid = mobility.moving_in(cluster);
+        const Lanes v = lanes(volume, cluster.first);
+        store_lanes(density_rate, cluster.first, liquid, sum.density);
+        store_lanes(mass_rate, cluster.first, liquid, v * sum.mass);
+        if constexpr (with_enthalpy) store_lanes(*energy_rate, cluster.first, liquid, v * sum.energy);
+        store_lanes(momentum_rate, cluster.first, liquid, v * sum.momentum);
     }
 };
 

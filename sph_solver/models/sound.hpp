@@ -41,17 +41,18 @@ template <bool with_walls> struct ContinuityOfSound
         Lanes divergence{}, corrected{}, walls{};
     };
 
-    bool is_in_band(Index k) const { return surface_delta && mobility.weight[k] != 0.0 && (*surface_delta)[k] > 0.0; }
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, mobility.weight, density, velocity, density_rate, by_walls);
+        if (surface_delta) prefetch(*surface_delta, first);
+        if (replaced) prefetch(*replaced, first);
+    }
     Near near(Index first) const
     {
-        Near near{lanes(density, first), lanes(velocity, first), false, {}};
-        for (int lane = 0; surface_delta && lane < lane_count; ++lane)
-            near.in_band = near.in_band || (*surface_delta)[first + lane] > 0.0;
-        if (near.in_band)
-            near.correction = {lanes(correction.xx, first), lanes(correction.xy, first), lanes(correction.xz, first),
-                               lanes(correction.yy, first), lanes(correction.yz, first), lanes(correction.zz, first)};
-        return near;
+        const bool in_band = surface_delta && set_lanes(lanes(*surface_delta, first) > 0.0) != 0;
+        return {lanes(density, first), lanes(velocity, first), in_band,
+                in_band ? correction.of_cluster(first) : Symmetric3<Lanes>{}};
     }
     Far far(Index j) const
     {
@@ -72,13 +73,12 @@ template <bool with_walls> struct ContinuityOfSound
     {
         const Lanes partner = i.density * sum.divergence, corrected = i.density * sum.corrected,
                     walls = i.density * sum.walls;
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index k = cluster.first + lane;
-            if (mobility.weight[k] == 0.0) continue;
-            density_rate[k] = is_in_band(k) ? corrected[lane] : partner[lane];
-            if (replaced) (*replaced)[k] = density_rate[k] - partner[lane];
-            by_walls[k] = walls[lane];
-        }
+        const unsigned liquid = mobility.moving_in(cluster);
+        store_lanes(by_walls, cluster.first, liquid, walls);
+        if (!surface_delta) return store_lanes(density_rate, cluster.first, liquid, partner);
+        const Lanes rate = select(lanes(*surface_delta, cluster.first) > 0.0, corrected, partner);
+        store_lanes(density_rate, cluster.first, liquid, rate);
+        if (replaced) store_lanes(*replaced, cluster.first, liquid, rate - partner);
     }
 };
 
@@ -100,6 +100,10 @@ template <bool with_walls> struct PressureForce
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, mobility.weight, volume, pressure, pressure_force, wall_force);
+    }
     Near near(Index first) const { return {lanes(pressure, first)}; }
     Far far(Index j) const
     {
@@ -116,10 +120,10 @@ template <bool with_walls> struct PressureForce
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
+        const unsigned liquid = mobility.moving_in(cluster);
         const Lanes volume_i = lanes(volume, cluster.first);
-        store_if(pressure_force, cluster, volume_i * sum.push, liquid);
-        store_if(wall_force, cluster, volume_i * sum.walls, liquid);
+        store_lanes(pressure_force, cluster.first, liquid, volume_i * sum.push);
+        store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
     }
 };
 
@@ -159,7 +163,7 @@ struct TwoPhasePressureForce
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_if(pressure_force, cluster, sum.push, [&](Index i) { return mobility.weight[i] != 0.0; });
+        store_lanes(pressure_force, cluster.first, mobility.moving_in(cluster), sum.push);
     }
 };
 

@@ -22,9 +22,9 @@ struct SurfaceTensionLaw
 };
 
 /// What presses on the free surface of melt among its solid (other surfaces carry it into the liquid,
-/// surface_pressure.hpp; a film of a few particles is too little for that), as a continuum surface force: surface tension (Brackbill, Kothe, Zemach 1992; the
-/// paper, section 2.5.1) and the recoil of evaporating metal (Anisimov 1968; the paper, section 2.7). The band that
-/// bears it lies at a depth s below the surface:
+/// surface_pressure.hpp; a film of a few particles is too little for that), as a continuum surface force: surface
+/// tension (Brackbill, Kothe, Zemach 1992; the paper, section 2.5.1) and the recoil of evaporating metal (Anisimov
+/// 1968; the paper, section 2.7). The band that bears it lies at a depth s below the surface:
 ///
 ///   f = −δ (L n̂ + s ∇L),   L = σκ + p_r,   κ = ∇·n̂, n̂ out of the liquid      [N/m³]
 ///

@@ -77,6 +77,10 @@ struct ColourGradient
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, surface.colour_gradient, surface.smoothed_colour, surface.companions);
+    }
     Near near(Index first) const { return {two_phase ? lanes(surface.colour, first) : Lanes{}}; }
     Far far(Index j) const { return {real(surface.colour[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -88,10 +92,10 @@ struct ColourGradient
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto liquid = [&](Index i) { return mobility.weight[i] != 0.0; };
-        store_if(surface.colour_gradient, cluster, sum.gradient, liquid);
-        store_if(surface.smoothed_colour, cluster, two_phase ? sum.colour / sum.weight : sum.colour, liquid);
-        store_if(surface.companions, cluster, sum.companions, liquid);
+        const unsigned liquid = mobility.moving_in(cluster);
+        store_lanes(surface.colour_gradient, cluster.first, liquid, sum.gradient);
+        store_lanes(surface.smoothed_colour, cluster.first, liquid, two_phase ? sum.colour / sum.weight : sum.colour);
+        store_lanes(surface.companions, cluster.first, liquid, sum.companions);
     }
 };
 
@@ -173,8 +177,10 @@ struct SurfaceNeighbourhood
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         // raw_curvature is free at this stage and keeps the mark until the curvature itself is fitted.
-        store_if(surface.raw_curvature, cluster, sum.found,
-                 [&](Index i) { return mobility.weight[i] != 0.0 && surface.in_band[i] == 0.0; });
+        store_lanes(
+            surface.raw_curvature, cluster.first,
+            lanes_where(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.in_band[i] == 0.0; }),
+            sum.found);
     }
 };
 

@@ -31,7 +31,6 @@ namespace cupel::inline CUPEL_ENGINE
 struct SurfacePressure
 {
     Mobility mobility;
-    const ScalarField& volume;
     CorrectionMatrix correction;
     const ScalarField& value; ///< λ, Pa
     ScalarField& mean;        ///< its mean over neighbours, Pa
@@ -43,7 +42,7 @@ struct SurfacePressure
     };
     struct Far
     {
-        Real volume, value;
+        Real value;
     };
     struct Sum
     {
@@ -52,11 +51,12 @@ struct SurfacePressure
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, mobility.weight, correction, value, mean, gradient); }
     Near near(Index first) const { return {lanes(value, first)}; }
-    Far far(Index j) const { return {real(volume[j]), real(value[j])}; }
+    Far far(Index j) const { return {real(value[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const Lanes weight = j.volume * pair.gradient_over_r;
+        const Lanes& weight = pair.volume_gradient_over_r;
         const Lanes change = weight * (j.value - i.value);
         sum.weight += weight;
         sum.change += change;

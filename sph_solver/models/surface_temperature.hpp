@@ -51,7 +51,7 @@ struct SurfaceTemperature
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_if(mean, cluster, sum.temperature / sum.weight, [&](Index i) { return mobility.weight[i] != 0.0; });
+        store_lanes(mean, cluster.first, mobility.moving_in(cluster), sum.temperature / sum.weight);
     }
 };
 

@@ -33,29 +33,22 @@ struct Mobility
 {
     const ScalarField& weight;
 
-    bool none_in(const Cluster& cluster) const
+    /// Which particles of a cluster move, a bit for each.
+    unsigned moving_in(const Cluster& cluster) const
     {
-        return cupel::none_in(cluster, [&](Index i) { return weight[i] != 0.0; });
+        return set_lanes(lanes(weight, cluster.first) > 0.0) & cluster.lanes();
     }
-    bool all_in(const Cluster& cluster) const
-    {
-        return cupel::none_in(cluster, [&](Index i) { return weight[i] == 0.0; });
-    }
+    bool none_in(const Cluster& cluster) const { return moving_in(cluster) == 0; }
+    bool all_in(const Cluster& cluster) const { return moving_in(cluster) == cluster.lanes(); }
 };
 
-/// Keeps the lanes of particles for which choose(i) holds; the others belong to somebody else.
-template <class Choose>
-void store_if(ScalarField& field, const Cluster& cluster, const Lanes& values, const Choose& choose)
+/// Of a cluster those for which choose(i) holds, a bit for each.
+template <class Choose> unsigned lanes_where(const Cluster& cluster, const Choose& choose)
 {
-    for (int lane = 0; lane < cluster.count; ++lane)
-        if (choose(cluster.first + lane)) field[cluster.first + lane] = values[lane];
-}
-template <class Choose>
-void store_if(VectorField& field, const Cluster& cluster, const VectorLanes& values, const Choose& choose)
-{
-    for (int lane = 0; lane < cluster.count; ++lane)
-        if (choose(cluster.first + lane))
-            field.set(cluster.first + lane, {values.x[lane], values.y[lane], values.z[lane]});
+    unsigned lanes = 0;
+    for (Index lane = 0; lane < cluster.count; ++lane)
+        lanes |= static_cast<unsigned>(choose(cluster.first + lane)) << lane;
+    return lanes;
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -18,6 +18,11 @@ struct VelocityGradientFields
         const auto field = [&](const char* name) -> VectorField& { return particles.add_vector({name, "1/s"}); };
         return {field("velocity_gradient_x"), field("velocity_gradient_y"), field("velocity_gradient_z")};
     }
+    struct OfCluster
+    {
+        VectorLanes x, y, z;
+    };
+    OfCluster of_cluster(Index first) const { return {lanes(x, first), lanes(y, first), lanes(z, first)}; }
     void reset(Index i) const
     {
         for (VectorField* row : {&x, &y, &z})
@@ -25,13 +30,24 @@ struct VelocityGradientFields
     }
 
     /// Magnitude of the strain rate, γ̇ = √(2 S:S), S = ½(∇v + ∇vᵀ)      [1/s]
-    double strain_rate(Index i) const
+    double strain_rate(Index i) const { return strain_rate(x[i], y[i], z[i]); }
+    Lanes strain_rates(Index first) const
     {
-        const Vector u = x[i], v = y[i], w = z[i];
-        const double xy = u.y + v.x, xz = u.z + w.x, yz = v.z + w.y;
-        return std::sqrt(2.0 * (u.x * u.x + v.y * v.y + w.z * w.z) + xy * xy + xz * xz + yz * yz);
+        const auto [u, v, w] = of_cluster(first);
+        return strain_rate(u, v, w);
+    }
+    template <class Scalar>
+    static Scalar strain_rate(const VectorOf<Scalar>& u, const VectorOf<Scalar>& v, const VectorOf<Scalar>& w)
+    {
+        const Scalar xy = u.y + v.x, xz = u.z + w.x, yz = v.z + w.y;
+        return square_root(Scalar(2.0) * (u.x * u.x + v.y * v.y + w.z * w.z) + xy * xy + xz * xz + yz * yz);
     }
 };
+
+inline void prefetch(const VelocityGradientFields& gradient, Index first)
+{
+    prefetch_all(first, gradient.x, gradient.y, gradient.z);
+}
 
 /// Gradient of velocity, exact for a velocity that is linear in space:
 ///
@@ -51,6 +67,7 @@ struct VelocityGradient
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch_all(first, velocity, gradient); }
     Near near(Index first) const { return {lanes(velocity, first)}; }
     Far far(Index j) const { return {real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
@@ -62,16 +79,11 @@ struct VelocityGradient
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane) {
-            const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0) continue;
-            const auto row = [&](const VectorLanes& g) {
-                return correction[i] * Vector{g.x[lane], g.y[lane], g.z[lane]};
-            };
-            gradient.x.set(i, row(sum.x));
-            gradient.y.set(i, row(sum.y));
-            gradient.z.set(i, row(sum.z));
-        }
+        const unsigned liquid = mobility.moving_in(cluster);
+        const Symmetric3<Lanes> l = correction.of_cluster(cluster.first);
+        store_lanes(gradient.x, cluster.first, liquid, l * sum.x);
+        store_lanes(gradient.y, cluster.first, liquid, l * sum.y);
+        store_lanes(gradient.z, cluster.first, liquid, l * sum.z);
     }
 };
 

@@ -38,24 +38,37 @@ struct ViscousTraction
     const CorrectionMatrix* correction;  ///< L; null where no kernel is cut off
     VectorField& force;                  ///< added to
 
-    struct Columns
-    {
-        Vector x, y, z;
-    };
     /// Of A, times what a particle's own viscosity is in units of `viscosity`.
-    Columns stress(Index i) const
+    template <class Scalar> struct Columns
     {
-        const Vector &u = gradient.x[i], &v = gradient.y[i], &w = gradient.z[i];
-        if (excess_viscosity) {
-            const double share = (*excess_viscosity)[i];
-            return {share * u, share * v, share * w};
-        }
-        if (!correction) return {u, v, w};
+        VectorOf<Scalar> x, y, z;
+    };
+    template <class Scalar>
+    static Columns<Scalar> corrected(const Columns<Scalar>& gradient, const Symmetric3<Scalar>& l)
+    {
+        const auto& [u, v, w] = gradient;
         // ∇v + ∇vᵀ
-        const Vector x{2.0 * u.x, u.y + v.x, u.z + w.x}, y{x.y, 2.0 * v.y, v.z + w.y}, z{x.z, y.z, 2.0 * w.z};
-        const Symmetric3<double> e = trusted_excess((*correction)[i]);
-        return {u + e.xx * x + e.xy * y + e.xz * z, v + e.xy * x + e.yy * y + e.yz * z,
-                w + e.xz * x + e.yz * y + e.zz * z};
+        const VectorOf<Scalar> x{u.x + u.x, u.y + v.x, u.z + w.x}, y{x.y, v.y + v.y, v.z + w.y}, z{x.z, y.z, w.z + w.z};
+        const Symmetric3<Scalar> e = trusted_excess(l);
+        return {u + (e.xx * x + e.xy * y + e.xz * z), v + (e.xy * x + e.yy * y + e.yz * z),
+                w + (e.xz * x + e.yz * y + e.zz * z)};
+    }
+    Columns<double> stress(Index i) const
+    {
+        const Columns<double> columns{gradient.x[i], gradient.y[i], gradient.z[i]};
+        if (excess_viscosity) return scaled((*excess_viscosity)[i], columns);
+        return correction ? corrected(columns, (*correction)[i]) : columns;
+    }
+    Columns<Lanes> stress_in(const Cluster& cluster) const
+    {
+        const auto [u, v, w] = gradient.of_cluster(cluster.first);
+        const Columns<Lanes> columns{u, v, w};
+        if (excess_viscosity) return scaled(lanes(*excess_viscosity, cluster.first), columns);
+        return correction ? corrected(columns, correction->of_cluster(cluster.first)) : columns;
+    }
+    template <class Scalar> static Columns<Scalar> scaled(const Scalar& share, const Columns<Scalar>& a)
+    {
+        return {share * a.x, share * a.y, share * a.z};
     }
 
     struct Near
@@ -80,12 +93,17 @@ struct ViscousTraction
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const
+    {
+        prefetch(gradient, first);
+        if (correction) prefetch(*correction, first);
+    }
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
         const double liquid = mobility.weight[j];
         if (liquid == 0.0) return {2, {}, {}, {}};
-        const Columns a = stress(j);
+        const Columns<double> a = stress(j);
         return {1, real(a.x), real(a.y), real(a.z)};
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
@@ -96,13 +114,11 @@ struct ViscousTraction
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        for (int lane = 0; lane < cluster.count; ++lane)
-            if (const Index i = cluster.first + lane; mobility.weight[i] != 0.0) {
-                const Vector n{sum.own.x[lane], sum.own.y[lane], sum.own.z[lane]};
-                const Vector others{sum.others.x[lane], sum.others.y[lane], sum.others.z[lane]};
-                const Columns a = stress(i);
-                force.set(i, force[i] + viscosity * volume[i] * (n.x * a.x + n.y * a.y + n.z * a.z + others));
-            }
+        const VectorLanes& n = sum.own;
+        const Columns<Lanes> a = stress_in(cluster);
+        const Lanes weight = Lanes(viscosity) * lanes(volume, cluster.first);
+        store_lanes(force, cluster.first, mobility.moving_in(cluster),
+                    lanes(force, cluster.first) + weight * (n.x * a.x + n.y * a.y + n.z * a.z + sum.others));
     }
 };
 

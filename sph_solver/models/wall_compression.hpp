@@ -44,9 +44,9 @@ struct WallCompression
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto wall = [&](Index i) { return mobility.weight[i] == 0.0; };
-        store_if(liquid_number, cluster, sum.number, wall);
-        store_if(transport_number, cluster, sum.rate, wall);
+        const unsigned wall = cluster.lanes() & ~mobility.moving_in(cluster);
+        store_lanes(liquid_number, cluster.first, wall, sum.number);
+        store_lanes(transport_number, cluster.first, wall, sum.rate);
     }
 };
 

@@ -108,15 +108,15 @@ struct WallInterface
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        const auto chosen = [&](Index i) { return stands_for_surface(i); };
-        store_if(weight_sum, cluster, sum.weight, chosen);
-        store_if(cosine_sum, cluster, sum.cosine, chosen);
-        store_if(distance_sum, cluster, sum.distance, chosen);
-        store_if(curvature_sum, cluster, sum.curvature, chosen);
-        store_if(foot_sum, cluster, sum.foot, chosen);
-        store_if(lateral_sum, cluster, sum.lateral, chosen);
-        store_if(primary_sum, cluster, sum.primary, chosen);
-        store_if(other_sum, cluster, sum.other, chosen);
+        const unsigned chosen = lanes_where(cluster, [&](Index i) { return stands_for_surface(i); });
+        store_lanes(weight_sum, cluster.first, chosen, sum.weight);
+        store_lanes(cosine_sum, cluster.first, chosen, sum.cosine);
+        store_lanes(distance_sum, cluster.first, chosen, sum.distance);
+        store_lanes(curvature_sum, cluster.first, chosen, sum.curvature);
+        store_lanes(foot_sum, cluster.first, chosen, sum.foot);
+        store_lanes(lateral_sum, cluster.first, chosen, sum.lateral);
+        store_lanes(primary_sum, cluster.first, chosen, sum.primary);
+        store_lanes(other_sum, cluster.first, chosen, sum.other);
     }
 };
 

@@ -54,9 +54,9 @@ struct Probe
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
-        store_lanes(filling, cluster.first, cluster.count, sum.filling);
-        store_lanes(gradient, cluster.first, cluster.count, sum.gradient);
-        store_lanes(mean_velocity, cluster.first, cluster.count, sum.velocity);
+        store_lanes(filling, cluster.first, cluster.lanes(), sum.filling);
+        store_lanes(gradient, cluster.first, cluster.lanes(), sum.gradient);
+        store_lanes(mean_velocity, cluster.first, cluster.lanes(), sum.velocity);
     }
 };
 

@@ -108,7 +108,7 @@ TEST_P(FlowModels, ALoadThatIsLinearIsCarriedAsItIsAndAUniformOneDrivesNothing)
     const auto carry = [&](const Vector& by) {
         for (Index i = 0; i < particles.count(); ++i)
             load[i] = 7.0 + dot(by, particles.position[i]);
-        block.run(SurfacePressure{{block.mobility}, particles.volume, block.correction, load, mean, gradient});
+        block.run(SurfacePressure{{block.mobility}, block.correction, load, mean, gradient});
     };
     carry({});
     for (Index i = 0; i < particles.count(); ++i) {
@@ -510,6 +510,7 @@ TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 1.0, pressure_force, force, wall_force});
     block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force});
+    std::fill(share.values.begin(), share.values.end(), SurfaceStressShare::wanted);
     block.run(SurfaceStressShare{{block.mobility}, block.correction, delta, normal, share, direction});
     double column = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
