@@ -20,6 +20,7 @@ QUANTITY_NAMES = {
     "front_position": "Position of the front", "laplace_pressure": "Pressure inside less outside",
     "spurious_capillary_number": "Spurious capillary number", "oscillation_frequency": "Frequency", "oscillation_decay": "Decay rate",
     "oscillation_period": "Period", "wave_error": "Amplitude of the wave, RMS error", "drop_velocity": "Velocity of the drop",
+    "start_up_error": "Velocity of the drop, to its exact start",
     "migration_error": "Velocity of the drop, greatest error",
     "migration_error_sharp_interface": "Velocity of the drop, to sharp interface", "recoil_balance_error": "Balance of recoil, error",
 }

@@ -60,6 +60,8 @@ HISTORIES = (
     History("oscillation_frequency_amplitude", "amplitude / radius", "oscillation_frequency", exact=_oscillation),
     History("oscillation_period_amplitude", "amplitude / radius", "oscillation_period", exact=_oscillation),
     History("wave_error_amplitude_m", "amplitude", "wave_error", "m", exact_column="wave_error_exact_amplitude_m"),
+    History("start_up_error_velocity_m_per_s", "velocity of the drop [m/s]", "start_up_error", "m/s",
+            exact_column="start_up_error_exact_velocity_m_per_s"),
     History("migration_error_velocity_over_U_r", "velocity / U_r", "migration_error", exact_column="migration_error_curve"),
     History("migration_error_sharp_interface_velocity_over_U_r", "velocity / U_r", "migration_error_sharp_interface",
             exact_column="migration_error_sharp_interface_curve"),

@@ -65,6 +65,8 @@ const std::vector<MeasureDeclaration>& measure_declarations()
         {"wave_error", "1", "root mean square of a capillary wave's amplitude less the exact one, over the first",
          zero},
         {"drop_velocity", "m/s", "velocity of a drop's centroid along the temperature gradient", computed},
+        {"start_up_error", "1",
+         "greatest difference of a drop's velocity to that of an unbounded start from rest, over its limit", zero},
         {"migration_error", "1", "greatest difference of a drop's velocity to the tabulated curve, over its plateau",
          zero},
         {"migration_error_sharp_interface", "1",

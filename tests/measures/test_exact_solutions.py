@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cupel.exact import (
     capillary_wave, capillary_wave_finite_depth, channel_flow, oscillating_drop, recoil, return_flow, stefan, taylor_green,
-    thermocapillary_drop,
+    thermocapillary_drop, thermocapillary_start_up,
 )
 from cupel.exact.laplace import laplace_pressure
 from cupel.exact.moving_gaussian_source import MovingGaussianSource
@@ -208,6 +208,29 @@ def test_thermocapillary_drop_in_two_dimensions_of_equal_fluids():
     assert thermocapillary_drop.migration_velocity(-1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 2) == pytest.approx(1.0 / 8.0)
     speed = thermocapillary_drop.migration_velocity(-0.002, 200.0, 1.44e-3, 1.2e-6, 2.4e-6, 0.012, 0.024, 2)
     assert speed / 0.024 == pytest.approx(2.0 / 9.0)
+
+
+BULK = thermocapillary_start_up.Fluid(500.0, 0.024, 2.4e-6, 1e-4)
+DROP = thermocapillary_start_up.Fluid(250.0, 0.012, 1.2e-6, 0.5e-4)
+
+
+def test_start_of_a_migration_tends_to_its_limit_as_one_over_time():
+    limit = thermocapillary_drop.migration_velocity(-0.002, 50.0, 1.44e-3, 1.2e-6, 2.4e-6, 0.012, 0.024, 2)
+    short, long, longest = 1.0 - thermocapillary_start_up.velocity(np.array([3.0, 30.0, 300.0]), -0.002, 50.0, 1.44e-3, DROP, BULK) / limit
+    assert short / long == pytest.approx(10.0, rel=0.01) and long / longest == pytest.approx(10.0, rel=0.01)
+    assert longest == pytest.approx(0.0, abs=1e-4)
+
+
+def test_first_moment_of_a_migration_is_that_of_two_boundary_layers():
+    """At first a stress tau sin(theta), tau = |sigma'| G, is taken up by thin layers of the same slip velocity, whose momenta tau t are as
+    (mu rho)^(1/2); their fluxes q sin(theta) part a dipole A = U - q_b/a outside and a uniform flow C = U + q_d/a inside from the
+    surface, whose pressures a (rho_b dA/dt + rho_d dC/dt) balance tau."""
+    a, t = 1.44e-3, 1e-8
+    momentum = 0.002 * 50.0 * t
+    weights = np.sqrt([BULK.viscosity * BULK.density, DROP.viscosity * DROP.density])
+    bulk, drop = momentum * weights / weights.sum()
+    speed = (momentum + bulk - drop) / (a * (BULK.density + DROP.density))
+    assert thermocapillary_start_up.velocity(np.array([t]), -0.002, 50.0, a, DROP, BULK)[0] == pytest.approx(speed, rel=1e-3)
 
 
 def test_table_of_ma_and_bothe_is_met_at_its_times_and_ends_where_it_ends():

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cupel.exact import oscillating_drop, thermocapillary_drop
+from cupel.exact import oscillating_drop, thermocapillary_drop, thermocapillary_start_up
 from cupel.measures import MeasureError, Snapshot, measure
 from cupel.measures.drop import drop_state, shape_amplitude
 from cupel.measures.history import damped_oscillation, straight_line, too_few
@@ -232,3 +232,21 @@ def test_migration_error_is_the_greatest_distance_to_the_table_over_the_plateau(
     moments = np.linspace(0.15, 1.2, 22)
     expected = np.abs(thermocapillary_drop.ma_bothe(moments) + 0.001 - thermocapillary_drop.fitted(moments)).max()
     assert row["value"] == pytest.approx(expected / 0.15113, rel=1e-3) and row["pass"] is False
+
+
+def test_start_up_error_is_the_greatest_distance_to_the_exact_start_over_its_limit(tmp_path):
+    case, spacing, a = ma_bothe_case(), 1.44e-4, 1.44e-3
+    base, snapshots = shaped("cells"), []
+    fluids = [thermocapillary_start_up.Fluid(*(case["materials"][name][key] for key in ("density", "viscosity", "conductivity", "specific_heat")))
+              for name in ("drop", "bulk")]
+    for moment in (0.0, 0.01, 0.02, 0.03):
+        velocity = np.zeros((base.count, 3))
+        velocity[:, 2] = thermocapillary_start_up.velocity(np.array([moment]), -0.002, 200.0, a, *fluids)[0] - (4e-4 if moment == 0.02 else 1e-4)
+        snapshots.append(replace(base, position=base.position * spacing + [0.0, 0.0, 2 * a], volume=base.volume * spacing**3,
+                                 extent=base.extent * spacing, velocity=velocity, time=moment))
+    case["time"] = {"end": 0.03, "output_interval": 0.01}
+    case["measures"] = [{"name": "start_up_error", "unit": "1", "between": [0.005, 0.03], "tolerance": 0.05, "metric": "absolute",
+                         "reference": {"kind": "exact", "value": None, "source": "Laplace transform"}}]
+    row, = measure(write_result(tmp_path, snapshots), case)
+    limit = 0.024 * 2.0 / 9.0
+    assert row["value"] == pytest.approx(4e-4 / limit, rel=1e-6) and row["pass"] is False and row["reference"] == 0.0

@@ -2,6 +2,8 @@
 
     drop_velocity     m/s, mean velocity of the drop's elements, sum V f u/sum V f, along the gradient: positive toward the hot side;
                       reference: the unbounded limit in creeping flow (approach it by making the box larger)
+    start_up_error    greatest |U - exact|/U_unbounded over the snapshots of `between`, the exact velocity being that of a disc that starts at
+                      rest in an unbounded liquid (creeping flow): the limit itself is approached as 1/t only; reference 0
     migration_error   greatest |U/U_r - table|/plateau over the snapshots of `between` between t/t_r = 0.102 and 1.9, the times that
                       Ma and Bothe's table covers; reference 0
     migration_error_sharp_interface   the same for the curve by finite elements that fit the drop, over its own greatest value
@@ -15,6 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..exact import thermocapillary_drop as exact
+from ..exact import thermocapillary_start_up as start_up
 from .drop import drop_of, drop_state
 from .registry import MeasureError, Reading, measure_of_snapshot
 from .snapshot import Snapshot, look_up, primary_material
@@ -66,6 +69,26 @@ def drop_velocity(snapshot: Snapshot) -> Reading:
     gradient = gradient_of(snapshot.case)
     way = snapshot.once(drop_state).center - snapshot.first.once(drop_state).center
     return Reading(snapshot.once(_velocity), beside={"way_m": float(way @ gradient / np.linalg.norm(gradient))})
+
+
+def _start_up(snapshot: Snapshot) -> float:
+    """Exact velocity (m/s) of the case's disc at the snapshot's time."""
+    drop = drop_of(snapshot.case)
+    if drop.dimensions != 2:
+        raise MeasureError("resolved case: the exact start of a migration is that of a 2-D drop")
+    own, around = (start_up.Fluid(*(of[key] for key in ("density", "viscosity", "conductivity", "specific_heat")))
+                   for of in _pair(snapshot.case))
+    slope = primary_material(snapshot.case, "surface_tension_slope")["surface_tension_slope"]
+    return float(start_up.velocity(np.array([snapshot.elements.time]), slope, float(np.linalg.norm(gradient_of(snapshot.case))),
+                                   drop.radius, own, around)[0])
+
+
+@measure_of_snapshot("start_up_error", unit="1", needs=("velocity",), exact=lambda case: 0.0,
+                     combine=lambda readings: Reading(max(reading.value for reading in readings)))
+def start_up_error(snapshot: Snapshot) -> Reading:
+    found, expected = snapshot.once(_velocity), _start_up(snapshot)
+    return Reading(abs(found - expected) / abs(_unbounded(snapshot.case)),
+                   beside={"velocity_m_per_s": found, "exact_velocity_m_per_s": expected})
 
 
 def ma_bothe_units(case: dict) -> tuple[float, float]:
