@@ -19,7 +19,7 @@ TINY = {
 # Long enough to be interrupted in the middle.
 INTERRUPTED = {
     ("sph", "marangoni_layer"): ("resolution.coarse=100 um", "time.end=200 ms", "time.output_interval=5 ms"),
-    ("sph", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=2 ms", "time.output_interval=0.1 ms"),
+    ("sph", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=4 ms", "time.output_interval=0.1 ms"),
     ("openfoam", "slm_track_150w"): ("resolution.coarse=40 um", "time.end=1.5 ms", "time.output_interval=0.1 ms"),
 }
 
