@@ -38,7 +38,6 @@ struct ViscousTraction
     const CorrectionMatrix* correction;  ///< L; null where no kernel is cut off
     VectorField& force;                  ///< added to
 
-    /// Of A, times what a particle's own viscosity is in units of `viscosity`.
     template <class Scalar> struct Columns
     {
         VectorOf<Scalar> x, y, z;
@@ -53,6 +52,7 @@ struct ViscousTraction
         return {u + (e.xx * x + e.xy * y + e.xz * z), v + (e.xy * x + e.yy * y + e.yz * z),
                 w + (e.xz * x + e.yz * y + e.zz * z)};
     }
+    /// Of A, times what a particle's own viscosity is in units of `viscosity`; of one particle and of a cluster.
     Columns<double> stress(Index i) const
     {
         const Columns<double> columns{gradient.x[i], gradient.y[i], gradient.z[i]};
