@@ -120,7 +120,21 @@ ArtificialStress Flow::artificial_stress()
 
 SurfaceTemperature Flow::surface_temperature()
 {
-    return {mobility_, particles_.volume, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
+    return {mobility_, *temperature_, particles_.kind, surface_->fields().delta, *mean_temperature_};
+}
+
+SurfaceTemperatureGradient Flow::surface_temperature_gradient()
+{
+    return {mobility_, *temperature_, stress_share_ ? *stress_share_ : surface_->fields().delta,
+            *temperature_gradient_};
+}
+
+void Flow::correct_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction)
+{
+    const ScalarField& wanted = surface_temperature_gradient().wanted;
+    neighbourhood.for_each_moving([&](Index i) {
+        if (wanted[i] > 0.0) temperature_gradient_->set(i, correction[i] * (*temperature_gradient_)[i]);
+    });
 }
 
 void Flow::hold_surface_forces()

@@ -124,6 +124,9 @@ protected:
     ArtificialStress artificial_stress();
     /// The temperature that surface forces are evaluated at, as a term.
     SurfaceTemperature surface_temperature();
+    /// Gradient of temperature where Marangoni stress asks for it, as a term; then times the matrices that correct it.
+    SurfaceTemperatureGradient surface_temperature_gradient();
+    void correct_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Registers what is held of the surface's forces while sound is followed.
     void hold_surface_forces();
     /// What shares the time of sound and not of all else: nothing where both are the same.

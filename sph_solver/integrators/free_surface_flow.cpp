@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
@@ -106,29 +107,33 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
     const VelocityGradient gradient{mobility_, particles_.velocity, correction_, velocity_gradient_};
-    // It reads what the gradient has just stored for the same cluster.
-    const Continuity continuity{mobility_,
-                                particles_.density,
-                                particles_.velocity,
-                                velocity_gradient_,
-                                carried_load_ ? &surface_->fields().delta : nullptr,
-                                density_rate_,
-                                density_rate_by_walls_,
-                                replaced_rate_};
+    const auto sum_all = [&](const auto&... others) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction, gradient,
+                      others...);
+    };
+    const auto sum_with_continuity = [&](auto with_walls, const auto&... others) {
+        // It reads what the gradient has just stored for the same cluster.
+        sum_all(Continuity<with_walls()>{mobility_, particles_.density, particles_.velocity, velocity_gradient_,
+                                         carried_load_ ? &surface_->fields().delta : nullptr, density_rate_,
+                                         density_rate_by_walls_, replaced_rate_},
+                others...);
+    };
     const auto sum = [&](const auto&... others) {
-        const auto sum_all = [&](const auto&... diffusion) {
-            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction, gradient,
-                          continuity, diffusion..., others...);
+        const auto sum_with_diffusion = [&](const auto&... diffusion) {
+            neighbourhood.standing().empty() ? sum_with_continuity(std::false_type{}, diffusion..., others...)
+                                             : sum_with_continuity(std::true_type{}, diffusion..., others...);
         };
-        if (!density_gradient_) return sum_all();
-        sum_all(DensityDiffusion{mobility_, particles_.density, *density_gradient_,
-                                 scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
-                                     parameters_.equation_of_state.sound_speed,
-                                 *diffusion_rate_});
+        if (!density_gradient_) return sum_with_diffusion();
+        sum_with_diffusion(
+            DensityDiffusion{mobility_, particles_.density, *density_gradient_,
+                             scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                                 parameters_.equation_of_state.sound_speed,
+                             *diffusion_rate_});
     };
     if (!surface_) return sum();
-    if (!shift_ || exchanged_) return sum(surface_->colour_gradient());
-    sum_with_exchange(neighbourhood, [&](const auto& exchange) { sum(surface_->colour_gradient(), exchange); });
+    const auto colour = surface_->colour_gradient<false>();
+    if (!shift_ || exchanged_) return sum(colour);
+    sum_with_exchange(neighbourhood, [&](const auto& exchange) { sum(colour, exchange); });
 }
 
 /// Mass goes from particle to particle with its momentum and its enthalpy.
@@ -202,32 +207,28 @@ void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const Compres
 /// Marangoni flow needs of temperature: all of them need nothing but the state as it is now.
 void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient)
 {
-    const FreeSurfaceMomentum momentum{mobility_,
-                                       particles_.volume,
-                                       *excess_pressure_,
-                                       particles_.velocity,
-                                       scene_.materials.front().viscosity.value(),
-                                       pressure_force_,
-                                       viscous_force_,
-                                       *wall_force_};
+    const double viscosity = scene_.materials.front().viscosity.value();
     // What follows momentum adds to what it has just stored for the same cluster.
-    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, momentum.viscosity,
+    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, viscosity,
                                    nullptr,   &correction_,      viscous_force_};
     start_artificial_force(neighbourhood);
-    const auto sum = [&](const auto&... others) {
+    const auto sum = [&](auto with_walls, const auto&... others) {
+        const FreeSurfaceMomentum<with_walls()> momentum{mobility_,           particles_.volume, *excess_pressure_,
+                                                         particles_.velocity, viscosity,         pressure_force_,
+                                                         viscous_force_,      *wall_force_};
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
     const auto sum_with_remedies = [&](const auto&... others) {
-        artificial_force_ ? sum(others..., artificial_viscosity(), artificial_stress()) : sum(others...);
+        if (artificial_force_) return sum(std::true_type{}, others..., artificial_viscosity(), artificial_stress());
+        neighbourhood.standing().empty() ? sum(std::false_type{}, others...) : sum(std::true_type{}, others...);
     };
     const auto sum_with_density = [&](const auto&... others) {
         if (!density_gradient_ || !with_density_gradient) return sum_with_remedies(others...);
-        sum_with_remedies(others..., ScalarGradient{mobility_, particles_.density, *density_gradient_});
+        sum_with_remedies(ScalarGradient{mobility_, particles_.density, *density_gradient_}, others...);
     };
     const auto sum_with_gradient = [&](const auto&... others) {
         if (!temperature_gradient_) return sum_with_density(others...);
-        sum_with_density(others..., ScalarGradient{mobility_, *temperature_, *temperature_gradient_},
-                         surface_temperature());
+        sum_with_density(others..., surface_temperature_gradient(), surface_temperature());
     };
     if (!shift_)
         sum_with_gradient();
@@ -251,10 +252,14 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
         // Packing reads the speed that shifting has just stored for the same cluster.
         sum_with_gradient(shifting, Packing{mobility_, h, *shifting_speed_, particles_.density, *packing_rate_});
     }
-    neighbourhood.for_each_moving([&](Index i) {
-        for (VectorField* gradient : {temperature_gradient_, with_density_gradient ? density_gradient_ : nullptr})
-            if (gradient) gradient->set(i, correction_[i] * (*gradient)[i]);
-    });
+    if (temperature_gradient_) correct_temperature_gradient(neighbourhood, correction_);
+    if (density_gradient_ && with_density_gradient) correct_density_gradient(neighbourhood);
+}
+
+void FreeSurfaceFlow::correct_density_gradient(const Neighbourhood& neighbourhood)
+{
+    neighbourhood.for_each_moving(
+        [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
 }
 
 /// Clusters whose particles take a share of a stress on the surface: as far as the kernels of the first layer reach.
@@ -279,8 +284,8 @@ std::vector<Index> FreeSurfaceFlow::mark_reach_of_surface_stress(const Neighbour
 
 SurfaceStressShare FreeSurfaceFlow::surface_stress_share()
 {
-    const SurfaceFields& surface = surface_->fields();
-    return {mobility_, correction_, surface.delta, surface.normal, *stress_share_, *stress_direction_};
+    return {mobility_,      correction_,       surface_->fields(), parameters_.smoothing_length,
+            *stress_share_, *stress_direction_};
 }
 
 /// The load on the surface carried into the liquid, one step further than the last, and its force; in the same pass
@@ -360,12 +365,12 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     extrapolate_pressure(neighbourhood);
 
     if (surface_) surface_->find(neighbourhood);
+    std::vector<Index> stressed;
+    if (stress_share_) stressed = mark_reach_of_surface_stress(neighbourhood);
     find_forces(neighbourhood, alone);
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);
-    std::vector<Index> stressed;
-    if (stress_share_) stressed = mark_reach_of_surface_stress(neighbourhood);
     if (carried_load_)
         carry_load(neighbourhood, time_step == 0.0);
     else if (stress_share_)

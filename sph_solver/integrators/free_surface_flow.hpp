@@ -40,6 +40,7 @@ private:
     MechanicalWork compress(Index i, const CompressionTimes& times);
     void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
+    void correct_density_gradient(const Neighbourhood& neighbourhood);
     std::vector<Index> mark_reach_of_surface_stress(const Neighbourhood& neighbourhood);
     SurfaceStressShare surface_stress_share();
     void carry_load(const Neighbourhood& neighbourhood, bool at_start);

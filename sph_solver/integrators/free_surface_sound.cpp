@@ -55,9 +55,7 @@ void FreeSurfaceFlow::find_pressure_force(const Neighbourhood& neighbourhood, bo
         finds_gradient ? sum_all(ScalarGradient{mobility_, particles_.density, *density_gradient_}) : sum_all();
     };
     neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});
-    if (!finds_gradient) return;
-    neighbourhood.for_each_moving(
-        [&](Index i) { density_gradient_->set(i, correction_[i] * (*density_gradient_)[i]); });
+    if (finds_gradient) correct_density_gradient(neighbourhood);
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

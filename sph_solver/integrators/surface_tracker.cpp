@@ -92,7 +92,8 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     prescribe_wall_normals(neighbourhood, walls);
 
     const std::vector<Index> wetting = neighbourhood.moving_near(walls);
-    for_each_pair(list, particles_, kernel_, wetting, colour_gradient());
+    const auto sum = [&](const auto& term) { for_each_pair(list, particles_, kernel_, wetting, term); };
+    two_phase_ ? sum(colour_gradient<true>()) : sum(colour_gradient<false>());
     for (const Index c : wetting) {
         const Cluster& cluster = list.cluster(c);
         for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)

@@ -24,7 +24,7 @@ public:
     /// liquid in a corner a surface, which they then continue, and which so stays for ever.
     void start(const Neighbourhood& neighbourhood);
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
-    ColourGradient colour_gradient() const { return {mobility_, two_phase_, h_, fields_}; }
+    template <bool two_phase> ColourGradient<two_phase> colour_gradient() const { return {mobility_, h_, fields_}; }
     void find(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }

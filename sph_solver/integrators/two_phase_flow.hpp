@@ -47,6 +47,7 @@ private:
     VectorField* carried_acceleration_ = nullptr;
     double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
     double lattice_number_;    ///< of particles in a volume, 1/m³
+    double lattice_crowding_;  ///< that times a particle's volume: 1 but for what the kernel's sum misses
     double stiffness_;         ///< ρ c₀² of the heavier phase, Pa: one pressure scale for both
 };
 

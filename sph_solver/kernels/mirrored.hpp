@@ -45,7 +45,7 @@ template <class... Members> void turn(const Vector& sign, Members&... members)
 
 template <class Far> Far mirrored(Far far, const Vector& sign)
 {
-    if constexpr (std::is_arithmetic_v<Far>)
+    if constexpr (std::is_arithmetic_v<Far> || std::is_empty_v<Far>)
         return far;
     else if constexpr (std::same_as<Far, VectorOf<Real>>)
         return {static_cast<Real>(sign.x) * far.x, static_cast<Real>(sign.y) * far.y,

@@ -65,14 +65,16 @@ template <class Kernel> struct PairMaker
 };
 
 /// visit(first, end) for groups of terms that follow each other, each of them with no more sums than there are
-/// registers for beside what they are made of.
+/// registers for beside what they are made of, and local terms apart from others.
 template <std::size_t first, class... Terms, class Visit> void for_each_group(const Visit& visit)
 {
     constexpr std::size_t registers = 24;
     constexpr std::size_t end = [] {
         constexpr std::size_t sums[]{sizeof(typename Terms::Sum) / sizeof(Lanes)...};
+        constexpr bool local[]{Local<Terms>...};
         std::size_t last = first + 1;
-        for (std::size_t total = sums[first]; last < sizeof...(Terms) && total + sums[last] <= registers; ++last)
+        for (std::size_t total = sums[first];
+             last < sizeof...(Terms) && local[last] == local[first] && total + sums[last] <= registers; ++last)
             total += sums[last];
         return last;
     }();
@@ -119,6 +121,9 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
             gradient_over_r[k] = w.gradient_over_r.values();
         }
         for_each_group<0, Terms...>([&](auto first_term, auto end_term) {
+            constexpr bool locals[]{Local<Terms>...};
+            if constexpr (locals[first_term()])
+                if (!terms.template any_concerned<first_term(), end_term()>()) return;
             for (int k = 0; k < count; ++k) {
                 const auto& other = records[neighbour[k]];
                 Pair pair;
@@ -156,6 +161,8 @@ template <class Kernel, class... Terms>
 ///   Near near(Index first) const             loads it
 ///   Far far(Index j) const                   the same for a neighbour
 ///   bool idle(Cluster) const                 true where the term has nothing to do for this cluster
+///   static constexpr bool local = true       if there is one: most clusters do without this term; where it is idle its
+///                                            sums are left out and nothing is stored
 ///   bool ignores(const Far&) const           if there is one: true for a neighbour that adds nothing to the sum
 ///   void add(const Near&, const Far&, const Pair&, Sum&) const      the formula
 ///   void store(Cluster, const Near&, const Sum&) const              keeps the sum
@@ -217,7 +224,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                         TermsOfCluster<Terms...>::ahead(all_terms,
                                                         list.cluster(clusters[static_cast<std::size_t>(k + 1)]).first);
                     if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
-                    const TermsOfCluster<Terms...> of_cluster(all_terms, cluster.first);
+                    const TermsOfCluster<Terms...> of_cluster(all_terms, cluster);
                     const auto found = records ? neighbours.find(list.near(c), records, wanted)
                                                : neighbours.look_up(list.near(c), record, wanted);
                     auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);

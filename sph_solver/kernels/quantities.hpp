@@ -35,6 +35,10 @@ template <class Scalar> struct Pressure
 {
     Scalar pressure; ///< p, Pa
 };
+template <class Scalar> struct Temperature
+{
+    Scalar temperature; ///< T, K
+};
 template <class Scalar> struct Mass
 {
     Scalar mass; ///< m, kg
@@ -60,7 +64,7 @@ template <class... Parts> struct List
 /// A plain struct is the term's own, the t-th in the pass; another term of the same kind has another one.
 template <std::size_t t, class T> struct Own
 {
-    T own;
+    [[no_unique_address]] T own; // of nothing, no byte of a record
 };
 
 template <std::size_t t, class T> struct PartsOf

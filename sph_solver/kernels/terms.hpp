@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -33,6 +35,10 @@ struct Pair
     }
 };
 
+/// The Far of a term that needs no more of a neighbour than the pair.
+struct Nothing
+{};
+
 /// A term that says what it needs of a neighbour, `Far far(Index j) const`, gets that; any other gets its place j and
 /// looks into the fields itself.
 template <class Term>
@@ -56,6 +62,14 @@ template <class Term> bool ignores(const Term& term, [[maybe_unused]] const auto
         return false;
 }
 
+/// A term that concerns few of a pass's clusters, those near a surface perhaps, says so: `static constexpr bool local =
+/// true`. Where it is idle its sums are left out and nothing is stored, whatever else the pass finds there.
+template <class Term>
+concept Local = requires
+{
+    requires Term::local;
+};
+
 template <class Term> auto far_of(const Term& term, Index j)
 {
     if constexpr (HasFar<Term>)
@@ -72,11 +86,17 @@ template <class... Terms> struct TermsOfCluster
 
     const std::tuple<const Terms&...>& terms;
     Shared<typename Terms::Near...> near;
+    std::array<bool, sizeof...(Terms)> concerned; ///< whether a term has work here
 
-    TermsOfCluster(const std::tuple<const Terms&...>& all, Index first)
+    TermsOfCluster(const std::tuple<const Terms&...>& all, const Cluster& cluster)
         : terms(all),
-          near(std::apply([&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(first)...); },
-                          all))
+          near(std::apply(
+              [&](const Terms&... each) { return Shared<typename Terms::Near...>(each.near(cluster.first)...); }, all)),
+          concerned(std::apply(
+              [&](const Terms&... each) {
+                  return std::array<bool, sizeof...(Terms)>{(!Local<Terms> || !each.idle(cluster))...};
+              },
+              all))
     {}
 
     template <std::size_t... t>
@@ -89,6 +109,11 @@ template <class... Terms> struct TermsOfCluster
     void add(const Fars& far, const Pair& pair, Sums& sums) const
     {
         add_from<first>(far, pair, sums, std::make_index_sequence<end - first>{});
+    }
+    /// Whether any of them has work here.
+    template <std::size_t first, std::size_t end> bool any_concerned() const
+    {
+        return std::any_of(concerned.begin() + first, concerned.begin() + end, [](bool one) { return one; });
     }
     /// Fetches what near() and store() of a later cluster will ask for, where a term says what.
     static void ahead(const std::tuple<const Terms&...>& all, Index first)
@@ -116,7 +141,10 @@ private:
     }
     template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const
     {
-        (std::get<t>(terms).store(cluster, near.template of<t>(), std::get<t>(sums)), ...);
+        const auto keep = [&](const auto& term, bool has_work, const auto& own, const auto& sum) {
+            if (has_work) term.store(cluster, own, sum);
+        };
+        (keep(std::get<t>(terms), !Local<Terms> || concerned[t], near.template of<t>(), std::get<t>(sums)), ...);
     }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "models/velocity_gradient.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -23,7 +25,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// gradient, dρ/dt = −ρ tr ∇v. Elsewhere it keeps the sum, the partner of the pressure force: what is lost without it
 /// is energy of the size of p' times that divergence, nothing where λ bears the load, but a gravity wave then loses a
 /// fifth of its damping.
-struct Continuity
+template <bool with_walls = true> struct Continuity
 {
     Mobility mobility;
     const ScalarField& density;
@@ -35,26 +37,38 @@ struct Continuity
     ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
     using Near = Of<Lanes, quantity::Density, quantity::Velocity>;
-    using Far = Of<Real, quantity::Liquid, quantity::Velocity>;
+    using Far =
+        std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Velocity>, Of<Real, quantity::Velocity>>;
     struct Sum
     {
-        Lanes divergence{}, walls{};
+        Lanes divergence{};
+        [[no_unique_address]] std::conditional_t<with_walls, Lanes, Nothing> walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     void ahead(Index first) const { prefetch_all(first, density, density_rate, by_walls); }
     Near near(Index first) const { return {lanes(density, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(velocity[j])}; }
+    Far far(Index j) const
+    {
+        if constexpr (with_walls)
+            return {real(mobility.weight[j]), real(velocity[j])};
+        else
+            return {real(velocity[j])};
+    }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.divergence += dot(i.velocity - broadcast(j.velocity), pair.volume_gradient);
-        if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
+        if constexpr (with_walls)
+            if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
         const unsigned liquid = mobility.moving_in(cluster);
         const Lanes partner = i.density * sum.divergence;
-        store_lanes(by_walls, cluster.first, liquid, i.density * sum.walls);
+        if constexpr (with_walls)
+            store_lanes(by_walls, cluster.first, liquid, i.density * sum.walls);
+        else
+            store_lanes(by_walls, cluster.first, liquid, Lanes{});
         if (!surface_delta) return store_lanes(density_rate, cluster.first, liquid, partner);
         const auto [u, v, w] = gradient.of_cluster(cluster.first);
         const Lanes rate = select(lanes(*surface_delta, cluster.first) > 0.0, -i.density * (u.x + v.y + w.z), partner);

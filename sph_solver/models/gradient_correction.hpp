@@ -102,7 +102,8 @@ struct GradientCorrection
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     void ahead(Index first) const { prefetch_all(first, mobility.weight, matrix); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index, const Pair& pair, Sum& sum) const
+    Nothing far(Index) const { return {}; }
+    void add(const Near&, Nothing, const Pair& pair, Sum& sum) const
     {
         sum.moment.subtract_product(pair.volume_gradient, pair.offset);
     }

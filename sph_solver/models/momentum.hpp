@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "models/term.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -15,7 +17,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// between liquid particles to round-off. For the books, what walls and solids press by the pressure that they are
 /// given: −Σ_w V_i V_w p_w ∇W_iw [N]. Its work no compression of liquid answers, and what pressure does beside it the
 /// continuity equation takes. Shifting keeps the arrangement even, which the second sum relies on.
-struct FreeSurfaceMomentum
+template <bool with_walls = true> struct FreeSurfaceMomentum
 {
     Mobility mobility;
     const ScalarField& volume;
@@ -27,10 +29,12 @@ struct FreeSurfaceMomentum
     VectorField& wall_force; ///< of pressure_force, what walls and solids press, N
 
     using Near = Of<Lanes, quantity::Pressure, quantity::Velocity>;
-    using Far = Of<Real, quantity::Liquid, quantity::Pressure, quantity::Velocity>;
+    using Far = std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Pressure, quantity::Velocity>,
+                                   Of<Real, quantity::Pressure, quantity::Velocity>>;
     struct Sum
     {
-        VectorLanes push{}, drag{}, walls{};
+        VectorLanes push{}, drag{};
+        [[no_unique_address]] std::conditional_t<with_walls, VectorLanes, Nothing> walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -39,12 +43,19 @@ struct FreeSurfaceMomentum
         prefetch_all(first, mobility.weight, volume, pressure, velocity, pressure_force, viscous_force, wall_force);
     }
     Near near(Index first) const { return {lanes(pressure, first), lanes(velocity, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(pressure[j]), real(velocity[j])}; }
+    Far far(Index j) const
+    {
+        if constexpr (with_walls)
+            return {real(mobility.weight[j]), real(pressure[j]), real(velocity[j])};
+        else
+            return {real(pressure[j]), real(velocity[j])};
+    }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.push -= (i.pressure + j.pressure) * pair.volume_gradient;
         sum.drag += pair.volume_gradient_over_r * (i.velocity - broadcast(j.velocity));
-        if (j.liquid == 0) sum.walls -= Lanes(j.pressure) * pair.volume_gradient;
+        if constexpr (with_walls)
+            if (j.liquid == 0) sum.walls -= Lanes(j.pressure) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -52,7 +63,10 @@ struct FreeSurfaceMomentum
         const Lanes volume_i = lanes(volume, cluster.first);
         store_lanes(pressure_force, cluster.first, liquid, volume_i * sum.push);
         store_lanes(viscous_force, cluster.first, liquid, (Lanes(2.0 * viscosity) * volume_i) * sum.drag);
-        store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
+        if constexpr (with_walls)
+            store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
+        else
+            store_lanes(wall_force, cluster.first, liquid, VectorLanes{});
     }
 };
 

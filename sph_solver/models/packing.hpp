@@ -35,7 +35,8 @@ struct Packing
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     void ahead(Index first) const { prefetch_all(first, density, density_rate); }
     Near near(Index) const { return {}; }
-    void add(const Near&, Index, const Pair& pair, Sum& sum) const { sum.packing += pair.volume_kernel; }
+    Nothing far(Index) const { return {}; }
+    void add(const Near&, Nothing, const Pair& pair, Sum& sum) const { sum.packing += pair.volume_kernel; }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const Lanes rate = Lanes(1.0 / smoothing_length) * lanes(speed, cluster.first) * lanes(density, cluster.first);

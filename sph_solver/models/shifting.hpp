@@ -60,7 +60,8 @@ struct ShiftingVelocity
         prefetch_all(first, mass, companions, *colour_gradient, surface_delta, shift, inner_speed);
     }
     Near near(Index) const { return {1.0 / kernel_at_spacing}; }
-    void add(const Near& i, Index, const Pair& pair, Sum& sum) const
+    Nothing far(Index) const { return {}; }
+    void add(const Near& i, Nothing, const Pair& pair, Sum& sum) const
     {
         const Lanes closeness = i.closeness * pair.kernel;
         const Lanes square = closeness * closeness;

@@ -78,12 +78,4 @@ struct SurfacePressure
     }
 };
 
-/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.1 in the second
-/// layer.      [1]
-inline double share_of_surface(const SurfaceFields& surface, Index i, double smoothing_length)
-{
-    if (!(surface.delta[i] > 0.0)) return 0.0;
-    return std::clamp((norm(surface.colour_gradient[i]) * smoothing_length - 0.15) / 0.15, 0.0, 1.0);
-}
-
 } // namespace cupel::inline CUPEL_ENGINE

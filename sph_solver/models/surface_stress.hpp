@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/gradient_correction.hpp"
+#include "models/surface_geometry.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -15,26 +16,28 @@ namespace cupel::inline CUPEL_ENGINE
 /// surface zero: on a lattice the layers from the surface inwards take 1.43, −0.36, −0.064, −0.002 and no more. With δ
 /// = 2 |∇c|, whose middle is inside the liquid, that layer lags by 7 % of the surface speed in a layer of 20 spacings
 /// (marangoni_layer). Walls and solids continue the liquid before them.
+/// n̂ is that of the surface's first layer, further inside its mean over what is seen of that: what a colour gradient
+/// two or three layers deep points to is noise, and where it points inwards a share has the wrong sign (all of them
+/// together were 5 % too much in a layer that had turned over).
 struct SurfaceStressShare
 {
     Mobility mobility;
     CorrectionMatrix correction; ///< L
-    const ScalarField& delta;    ///< above zero in the surface's band
-    const VectorField& normal;   ///< n̂ of that, out of the liquid
-    ScalarField& share;          ///< δ*; comes in as `wanted` where it is asked for
-    VectorField& direction;      ///< n̂ where that is not zero
+    SurfaceFields surface;
+    double smoothing_length; ///< h, m
+    ScalarField& share;      ///< δ*; comes in as `wanted` where it is asked for
+    VectorField& direction;  ///< n̂ where that is not zero
 
     static constexpr double wanted = 1.0;
+    static constexpr bool local = true;
 
     struct Near
-    {
-        bool wanted; ///< by any of the cluster
-    };
+    {};
     struct Far
     {
         Real own; ///< how often L_i counts: 1, beside what continues it 2
         Symmetric3<Real> other;
-        VectorOf<Real> normal; ///< δ n̂
+        VectorOf<Real> normal; ///< n̂ times how far j belongs to the first layer
     };
     struct Sum
     {
@@ -47,20 +50,25 @@ struct SurfaceStressShare
         return {1.0 + e.xx, e.xy, e.xz, 1.0 + e.yy, e.yz, 1.0 + e.zz};
     }
 
-    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    void ahead(Index first) const { prefetch_all(first, mobility.weight, correction, delta, normal, share); }
-    Near near(Index first) const { return {set_lanes(lanes(share, first) > 0.0) != 0}; }
+    bool idle(const Cluster& cluster) const
+    {
+        return (set_lanes(lanes(share, cluster.first) > 0.0) & mobility.moving_in(cluster)) == 0;
+    }
+    void ahead(Index first) const
+    {
+        prefetch_all(first, mobility.weight, correction, surface.delta, surface.normal, share);
+    }
+    Near near(Index) const { return {}; }
     Far far(Index j) const
     {
         if (mobility.weight[j] == 0.0) return {2, {}, {}};
         const Symmetric3<double> l = trusted(correction[j]);
         return {1,
                 {real(l.xx), real(l.xy), real(l.xz), real(l.yy), real(l.yz), real(l.zz)},
-                real(std::max(delta[j], 0.0) * normal[j])};
+                real(share_of_surface(surface, j, smoothing_length) * surface.normal[j])};
     }
-    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        if (!i.wanted) return;
         const VectorLanes& n = pair.volume_gradient;
         const auto& l = j.other;
         sum.own += Lanes(j.own) * n;
@@ -69,19 +77,13 @@ struct SurfaceStressShare
                                   Lanes(l.xy) * n.x + Lanes(l.yy) * n.y + Lanes(l.yz) * n.z,
                                   Lanes(l.xz) * n.x + Lanes(l.yz) * n.y + Lanes(l.zz) * n.z};
     }
-    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
-    {
-        if (i.wanted) keep(cluster, sum);
-    }
-
-private:
-    void keep(const Cluster& cluster, const Sum& sum) const
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
-            Vector outward = normal[i];
-            if (!(delta[i] > 0.0)) {
+            Vector outward = surface.normal[i];
+            if (share_of_surface(surface, i, smoothing_length) == 0.0) {
                 outward = {sum.normal.x[lane], sum.normal.y[lane], sum.normal.z[lane]};
                 const double length = norm(outward);
                 share[i] = 0.0;

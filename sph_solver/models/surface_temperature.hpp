@@ -17,18 +17,20 @@ namespace cupel::inline CUPEL_ENGINE
 struct SurfaceTemperature
 {
     Mobility mobility;
-    const ScalarField& volume;
     const ScalarField& temperature;
     const std::vector<Kind>& kind;
     const ScalarField& surface_delta;
     ScalarField& mean;
 
+    static constexpr bool local = true;
+
+    template <class Scalar> struct Metal
+    {
+        Scalar metal; ///< 1, 0 for walls
+    };
     struct Near
     {};
-    struct Far
-    {
-        Real volume, volume_temperature; ///< 0 for walls
-    };
+    using Far = Of<Real, quantity::Temperature, Metal>;
     struct Sum
     {
         Lanes weight{}, temperature{};
@@ -36,22 +38,55 @@ struct SurfaceTemperature
 
     bool idle(const Cluster& cluster) const
     {
-        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface_delta[i] > 0.0; });
+        return (set_lanes(lanes(surface_delta, cluster.first) > 0.0) & mobility.moving_in(cluster)) == 0;
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        if (kind[static_cast<std::size_t>(j)] == Kind::wall) return {0, 0};
-        return {real(volume[j]), real(volume[j] * temperature[j])};
+        return {real(temperature[j]), kind[static_cast<std::size_t>(j)] == Kind::wall ? Real(0) : Real(1)};
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.weight += j.volume * pair.kernel;
-        sum.temperature += j.volume_temperature * pair.kernel;
+        const Lanes weight = j.metal * pair.volume_kernel;
+        sum.weight += weight;
+        sum.temperature += j.temperature * weight;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         store_lanes(mean, cluster.first, mobility.moving_in(cluster), sum.temperature / sum.weight);
+    }
+};
+
+/// Gradient of temperature near a surface, corrected as ScalarGradient's is (gradient_correction.hpp)      [K/m]
+struct SurfaceTemperatureGradient
+{
+    Mobility mobility;
+    const ScalarField& temperature;
+    const ScalarField& wanted; ///< above zero where it is asked for
+    VectorField& raw_gradient; ///< to be multiplied by L_i there
+
+    static constexpr bool local = true;
+
+    using Near = Of<Lanes, quantity::Temperature>;
+    using Far = Of<Real, quantity::Temperature>;
+    struct Sum
+    {
+        VectorLanes gradient{};
+    };
+
+    bool idle(const Cluster& cluster) const
+    {
+        return (set_lanes(lanes(wanted, cluster.first) > 0.0) & mobility.moving_in(cluster)) == 0;
+    }
+    Near near(Index first) const { return {lanes(temperature, first)}; }
+    Far far(Index j) const { return {real(temperature[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        sum.gradient += (j.temperature - i.temperature) * pair.volume_gradient;
+    }
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        store_lanes(raw_gradient, cluster.first, mobility.moving_in(cluster), sum.gradient);
     }
 };
 

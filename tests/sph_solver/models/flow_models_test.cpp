@@ -483,16 +483,16 @@ TEST_P(FlowModels, PackingRaisesDensityWhereVolumesOverlap)
 TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
 {
     // A block whose upper faces are free: u = z is what a stress μ x̂ on the top drives. Each column of it takes the
-    // whole stress, and viscous force and stress cancel on every particle far from the other faces.
+    // whole stress, and viscous force and stress cancel on every particle far from the other faces, whatever a colour
+    // gradient says inside, where it is noise.
     Block block(GetParam(), 14, 0.0);
     Particles& particles = block.particles;
     VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
     VectorField& force = particles.add_vector({"force", "N"});
     VectorField& wall_force = particles.add_vector({"wall_force", "N"});
-    VectorField& normal = particles.add_vector({"normal", "1"});
     VectorField& direction = particles.add_vector({"direction", "1"});
     ScalarField& share = particles.add_scalar({"share", "1/m"});
-    ScalarField& delta = particles.add_scalar({"delta", "1/m"});
+    const SurfaceFields surface = SurfaceFields::register_in(particles);
     ScalarField& no_pressure = particles.add_scalar({"no_pressure", "Pa"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     double top = -1e9;
@@ -503,15 +503,18 @@ TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
     }
     for (Index i = 0; i < particles.count(); ++i) {
         const double depth = top - particles.position[i].z;
-        if (depth < 1.5) delta[i] = depth < 0.5 ? 0.93 : 0.07;
-        normal.set(i, {0.0, 0.0, 1.0});
+        const double slope = depth < 0.5 ? 0.468 : 0.1; // |∇c| of a lattice's first two layers
+        surface.delta[i] = depth < 3.5 ? 2.0 * slope : 0.0;
+        surface.normal.set(i, depth < 0.5 ? Vector{0.0, 0.0, 1.0} : Vector{0.6, 0.0, -0.8});
+        surface.colour_gradient.set(i, slope * surface.normal[i]);
     }
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 1.0, pressure_force, force, wall_force});
     block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force});
     std::fill(share.values.begin(), share.values.end(), SurfaceStressShare::wanted);
-    block.run(SurfaceStressShare{{block.mobility}, block.correction, delta, normal, share, direction});
+    block.run(SurfaceStressShare{
+        {block.mobility}, block.correction, surface, block.kernel.smoothing_length(), share, direction});
     double column = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector offset = particles.position[i] - middle;
