@@ -49,10 +49,10 @@ public:
     {
         Filled square{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Filled below = rounded_down(component(lower, axis)) - load(upper_[axis], first),
-                         above = load(lower_[axis], first) + rounded_down(-component(upper, axis));
+            const Filled below = packed<Filled>(rounded_down(component(lower, axis))) - load(upper_[axis], first),
+                         above = load(lower_[axis], first) + packed<Filled>(rounded_down(-component(upper, axis)));
             const Filled gap = greater(greater(below, above), Filled{});
-            square += gap * gap;
+            square = square + gap * gap;
         }
         return lanes_below(square, square_limit) & ((1u << std::min(end - first, at_once)) - 1u);
     }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstring>
+
 #include "math/lanes.hpp"
 #include "particles/particles.hpp"
 
@@ -8,18 +11,18 @@ namespace cupel::inline CUPEL_ENGINE
 {
 
 /// A cluster's coordinates in float, in either precision: lists have a margin for what that leaves out.
-using Narrow = float __attribute__((vector_size(4 * lane_count)));
+using Narrow = std::array<float, lane_count>;
 
 /// What fills a register of 64 bytes: in double a cluster of candidates twice, in float once, so that it meets as many
 /// particles at a time.
-using Filled = float __attribute__((vector_size(64)));
+using Filled = Packed<float>;
 constexpr int particles_at_a_time = 16 / lane_count;
 
 inline Filled filled(const Narrow& a)
 {
     Filled all;
-    for (int lane = 0; lane < 16; ++lane)
-        all[lane] = a[lane % lane_count];
+    for (int half = 0; half < particles_at_a_time; ++half)
+        std::memcpy(reinterpret_cast<std::byte*>(&all) + static_cast<std::size_t>(half) * sizeof a, &a, sizeof a);
     return all;
 }
 
@@ -28,7 +31,7 @@ inline Narrow narrow(const Array& coordinate, Index first, double middle)
     Narrow lanes;
     const double* values = coordinate.data() + first;
     for (int lane = 0; lane < lane_count; ++lane)
-        lanes[lane] = static_cast<float>(values[lane] - middle);
+        lanes[static_cast<std::size_t>(lane)] = static_cast<float>(values[lane] - middle);
     return lanes;
 }
 #if defined(__AVX512F__)
@@ -50,19 +53,16 @@ inline unsigned lanes_below(const Filled& a, float limit)
 #else
 inline Filled lesser(const Filled& a, const Filled& b)
 {
-    return a < b ? a : b;
+    return in_registers([](const auto& x, const auto& y) { return x < y ? x : y; }, a, b);
 }
 inline Filled greater(const Filled& a, const Filled& b)
 {
-    return a > b ? a : b;
+    return in_registers([](const auto& x, const auto& y) { return x > y ? x : y; }, a, b);
 }
 /// One bit for each lane below a limit, the first lowest.
 inline unsigned lanes_below(const Filled& a, float limit)
 {
-    unsigned bits = 0;
-    for (int lane = 0; lane < 16; ++lane)
-        bits |= static_cast<unsigned>(a[lane] < limit) << lane;
-    return bits;
+    return bits_of<float>(in_registers([&](const auto& x) { return x < limit; }, a));
 }
 #endif
 /// The same of a cluster of candidates, wherever in the register it is below.

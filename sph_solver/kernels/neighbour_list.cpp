@@ -168,9 +168,9 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
         const Vector p = position[cluster.first + std::min<Index>(lane, cluster.count - 1)] - middle;
         for (int candidate = 0; candidate < lane_count; ++candidate) {
             const int place = (lane % particles_at_a_time) * lane_count + candidate;
-            x[lane / particles_at_a_time][place] = static_cast<float>(p.x);
-            y[lane / particles_at_a_time][place] = static_cast<float>(p.y);
-            z[lane / particles_at_a_time][place] = static_cast<float>(p.z);
+            set_number_at(x[lane / particles_at_a_time], place, static_cast<float>(p.x));
+            set_number_at(y[lane / particles_at_a_time], place, static_cast<float>(p.y));
+            set_number_at(z[lane / particles_at_a_time], place, static_cast<float>(p.z));
         }
     }
     for_each_cluster_near(box, [&](Index d) {
@@ -178,7 +178,7 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
         const Filled near_x = filled(narrow(position.x, near.first, middle.x)),
                      near_y = filled(narrow(position.y, near.first, middle.y)),
                      near_z = filled(narrow(position.z, near.first, middle.z));
-        Filled nearest = reach_squared - Filled{};
+        Filled nearest = packed<Filled>(reach_squared);
         for (int k = 0; k < registers; ++k) {
             const Filled dx = near_x - x[k], dy = near_y - y[k], dz = near_z - z[k];
             nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);

@@ -103,8 +103,7 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
     constexpr int most = 32;
     // As far as a record from the next cache but one is away; which[] has places beyond its end.
     constexpr int neighbours_ahead = 16;
-    using Register = Lanes::Register;
-    Register square[most], kernel[most], gradient_over_r[most];
+    Lanes::Registers square[most], kernel[most], gradient_over_r[most];
     Index neighbour[most];
     while (next < end) {
         int count = 0;

@@ -21,15 +21,18 @@ struct Place
 };
 struct PlaceLanes
 {
-    using Register = std::int32_t __attribute__((vector_size(64)));
-    Register x, y, z;
+    Packed<std::int32_t> x, y, z;
     Lanes part; ///< m
 };
 
 inline VectorLanes offset_between(const PlaceLanes& i, const Place& j)
 {
-    const auto along = [&](const PlaceLanes::Register& here, std::int32_t there) {
-        return Lanes(__builtin_convertvector(here - there, Lanes::Register)) * i.part;
+    const auto along = [&](const Packed<std::int32_t>& here, std::int32_t there) {
+        const auto difference = [&](const auto& some) {
+            using Floats = float __attribute__((vector_size(register_bytes)));
+            return __builtin_convertvector(some - there, Floats);
+        };
+        return Lanes(in_registers(difference, here)) * i.part;
     };
     return {along(i.x, j.x), along(i.y, j.y), along(i.z, j.z)};
 }
@@ -58,9 +61,9 @@ public:
         places.part = Lanes(part_);
         for (int lane = 0; lane < lane_count; ++lane) {
             const Place p = (*this)(first + lane);
-            places.x[lane] = p.x;
-            places.y[lane] = p.y;
-            places.z[lane] = p.z;
+            set_number_at(places.x, lane, p.x);
+            set_number_at(places.y, lane, p.y);
+            set_number_at(places.z, lane, p.z);
         }
         return places;
     }

@@ -1,37 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <type_traits>
 
-#if defined(__SSE__)
-#include <immintrin.h>
-#endif
-
+#include "math/engine.hpp"
+#include "math/registers.hpp"
 #include "math/vector.hpp"
-
-/// The engine is compiled once for each instruction set and precision, each time into a namespace of its own, so that
-/// one program carries them all and takes the best one that the machine has (programs/engines.hpp). What depends on
-/// Lanes is written in `namespace cupel::inline CUPEL_ENGINE`; everything else is compiled once.
-#if !defined(CUPEL_ENGINE)
-#define CUPEL_ENGINE native_double
-#endif
-#if !defined(CUPEL_REAL)
-#define CUPEL_REAL double
-#endif
 
 namespace cupel::inline CUPEL_ENGINE
 {
-
-#define CUPEL_QUOTE_NAME(name) #name
-#define CUPEL_QUOTE(macro) CUPEL_QUOTE_NAME(macro)
-inline constexpr const char* engine_name = CUPEL_QUOTE(CUPEL_ENGINE);
-
-/// Pair arithmetic is done in Real. Fields, positions and everything outside the pair loops are double.
-using Real = CUPEL_REAL;
 
 /// A cluster of particles side by side, eight in double or sixteen in float: 64 bytes, the register that a cluster's
 /// sums live in while its neighbours pass by.
@@ -62,48 +41,40 @@ public:
 #endif
 };
 
+/// What a comparison of two Lanes says of each.
 struct LaneMask
 {
-    using Bits = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
-    using Register = Bits __attribute__((vector_size(64)));
-    Register bits;
+    decltype(Packed<Real>{} < Packed<Real>{}) bits;
 };
 
-/// One Real for each particle of a cluster. A GCC/Clang vector within, so that one source compiles to AVX-512, to AVX2
-/// and to portable code. A number where lanes are expected stands for all of them.
+/// One Real for each particle of a cluster, in registers of the machine's width, so that one source compiles to
+/// AVX-512, to AVX2 and to portable code. A number where lanes are expected stands for all of them.
 class Lanes
 {
 public:
-    using Register = Real __attribute__((vector_size(64)));
+    using Registers = Packed<Real>;
 
     Lanes() : values_{} {}
-    template <std::floating_point Number> Lanes(Number value) : values_(static_cast<Real>(value) - Register{}) {}
-    explicit Lanes(Register values) : values_(values) {}
+    template <std::floating_point Number> Lanes(Number value) : values_(packed<Registers>(static_cast<Real>(value))) {}
+    explicit Lanes(const Registers& values) : values_(values) {}
+    explicit Lanes(const std::array<Real, lane_count>& values) { std::memcpy(&values_, &values, sizeof values_); }
 
-    Real operator[](int lane) const { return values_[lane]; }
-    void set(int lane, double value) { values_[lane] = static_cast<Real>(value); }
-    Register values() const { return values_; }
+    Real operator[](int lane) const { return number_at<Real>(values_, lane); }
+    void set(int lane, double value) { set_number_at(values_, lane, static_cast<Real>(value)); }
+    const Registers& values() const { return values_; }
 
-    Lanes& operator+=(const Lanes& b)
-    {
-        values_ += b.values_;
-        return *this;
-    }
-    Lanes& operator-=(const Lanes& b)
-    {
-        values_ -= b.values_;
-        return *this;
-    }
+    Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+    Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
     friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.values_ + b.values_); }
     friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.values_ - b.values_); }
     friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.values_ * b.values_); }
     friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
     friend Lanes operator-(const Lanes& a) { return Lanes(-a.values_); }
     friend LaneMask operator<(const Lanes& a, const Lanes& b) { return {a.values_ < b.values_}; }
-    friend LaneMask operator>(const Lanes& a, const Lanes& b) { return {a.values_ > b.values_}; }
+    friend LaneMask operator>(const Lanes& a, const Lanes& b) { return b < a; }
 
 private:
-    Register values_;
+    Registers values_;
 };
 
 inline LaneMask operator&(const LaneMask& a, const LaneMask& b)
@@ -118,7 +89,8 @@ inline LaneMask operator|(const LaneMask& a, const LaneMask& b)
 /// yes where the mask is set, no elsewhere.
 inline Lanes select(const LaneMask& mask, const Lanes& yes, const Lanes& no)
 {
-    return Lanes(mask.bits ? yes.values() : no.values());
+    return Lanes(in_registers([](const auto& which, const auto& a, const auto& b) { return which ? a : b; }, mask.bits,
+                              yes.values(), no.values()));
 }
 #if defined(__AVX512F__)
 // Where the compiler, minding the signs of zeros, would take two instructions for one, and for the machine's estimates.
@@ -132,11 +104,11 @@ inline __m512 floats(const Lanes& a)
 }
 inline Lanes lanes_in(__m512d a)
 {
-    return Lanes(reinterpret_cast<Lanes::Register>(a));
+    return Lanes(reinterpret_cast<Lanes::Registers>(a));
 }
 inline Lanes lanes_in(__m512 a)
 {
-    return Lanes(reinterpret_cast<Lanes::Register>(a));
+    return Lanes(reinterpret_cast<Lanes::Registers>(a));
 }
 inline Lanes maximum(const Lanes& a, const Lanes& b)
 {
@@ -183,10 +155,13 @@ inline Lanes clamp(const Lanes& a, double least, double most)
 }
 inline Lanes square_root(const Lanes& a)
 {
-    Lanes::Register root;
-    for (int lane = 0; lane < lane_count; ++lane)
-        root[lane] = std::sqrt(a.values()[lane]);
-    return Lanes(root);
+    return Lanes(in_registers(
+        [](auto root) {
+            for (std::size_t k = 0; k < sizeof root / sizeof root[0]; ++k)
+                root[k] = std::sqrt(root[k]);
+            return root;
+        },
+        a.values()));
 }
 
 #if defined(__AVX512F__)
@@ -250,17 +225,7 @@ inline Lanes reciprocal(const Lanes& a)
 /// One bit for each lane, the first lowest.
 inline unsigned set_lanes(const LaneMask& mask)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-    if constexpr (sizeof(Real) == 8)
-        return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.bits));
-    else
-        return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask.bits));
-#else
-    unsigned bits = 0;
-    for (int lane = 0; lane < lane_count; ++lane)
-        bits |= mask.bits[lane] != 0 ? 1u << lane : 0u;
-    return bits;
-#endif
+    return bits_of<Real>(mask.bits);
 }
 
 /// Whether a lane is below a limit; where the machine has no short way to tell, always.
@@ -271,12 +236,8 @@ inline bool may_be_below(const Lanes& a, double limit)
         return _mm512_cmp_pd_mask(doubles(a), _mm512_set1_pd(limit), _CMP_LT_OQ) != 0;
     else
         return _mm512_cmp_ps_mask(floats(a), _mm512_set1_ps(static_cast<float>(limit)), _CMP_LT_OQ) != 0;
-#elif defined(__AVX2__)
-    const LaneMask below = a < Lanes(limit);
-    __m256i halves[2];
-    std::memcpy(halves, &below.bits, sizeof halves);
-    const __m256i either = _mm256_or_si256(halves[0], halves[1]);
-    return _mm256_testz_si256(either, either) == 0;
+#elif defined(__SSE2__)
+    return set_lanes(a < Lanes(limit)) != 0;
 #else
     static_cast<void>(a), static_cast<void>(limit);
     return true;
@@ -286,12 +247,9 @@ inline bool may_be_below(const Lanes& a, double limit)
 /// Consecutive values; arrays keep 16 values beyond their end readable.
 inline Lanes load_lanes(const double* values)
 {
-    Lanes::Register lanes;
-    if constexpr (sizeof(Real) == 8)
-        std::memcpy(&lanes, values, sizeof lanes);
-    else
-        for (int lane = 0; lane < lane_count; ++lane)
-            lanes[lane] = static_cast<Real>(values[lane]);
+    std::array<Real, lane_count> lanes;
+    for (int lane = 0; lane < lane_count; ++lane)
+        lanes[static_cast<std::size_t>(lane)] = static_cast<Real>(values[lane]);
     return Lanes(lanes);
 }
 
@@ -307,7 +265,7 @@ inline void store_lanes(double* values, unsigned which, const Lanes& lanes)
     else {
         using Half = float __attribute__((vector_size(32)));
         Half halves[2];
-        const Lanes::Register all = lanes.values();
+        const Lanes::Registers all = lanes.values();
         std::memcpy(halves, &all, sizeof halves);
         for (const Half& half : halves) {
             using Wide = double __attribute__((vector_size(64)));
@@ -318,8 +276,9 @@ inline void store_lanes(double* values, unsigned which, const Lanes& lanes)
         }
     }
 #else
+    constexpr unsigned all = (1u << lane_count) - 1u;
     for (int lane = 0; lane < lane_count; ++lane)
-        if (which >> lane & 1u) values[lane] = lanes[lane];
+        if (which == all || which >> lane & 1u) values[lane] = lanes[lane];
 #endif
 }
 

@@ -56,9 +56,9 @@ struct Cohesion
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     Near near(Index first) const
     {
-        Lanes::Register s{};
+        std::array<Real, lane_count> s;
         for (int lane = 0; lane < lane_count; ++lane)
-            s[lane] = real(strength(first + lane));
+            s[static_cast<std::size_t>(lane)] = real(strength(first + lane));
         return {lanes(unresolved, first), Lanes(s)};
     }
     Far far(Index j) const
