@@ -60,14 +60,14 @@ void History::add(std::span<const double> values)
     if (pending_.size() > most_pending) flush();
 }
 
-void History::flush()
+void History::flush(Flush when)
 {
     if (pending_.empty()) return;
     FileDescriptor file(path_, O_WRONLY | O_APPEND, "written"); // not O_CREAT: a file without a header is no history
     const auto size_before = ::lseek(file.number(), 0, SEEK_END);
     try {
         file.write(pending_);
-        file.flush();
+        when == Flush::now ? file.flush() : file.start_flush();
     }
     catch (const OutputError&) {
         if (size_before < 0 || ::ftruncate(file.number(), size_before) != 0)

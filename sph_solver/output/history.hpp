@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "output/atomic_file.hpp"
+
 namespace cupel
 {
 
@@ -26,8 +28,10 @@ public:
     void add(std::span<const double> values);
 
     /// Appends the rows added since the last flush and puts them on the disk: before every checkpoint, so that a
-    /// resumed run finds the rows that came before it, and at the end. Throws OutputError.
-    void flush();
+    /// resumed run finds the rows that came before it, and at the end; with Flush::later somebody else sees to that.
+    /// Throws OutputError.
+    void flush(Flush when = Flush::now);
+    const std::filesystem::path& path() const { return path_; }
 
     const std::vector<std::string>& columns() const { return columns_; }
 

@@ -199,11 +199,17 @@ RunState Recorder::state_of(const Simulation& simulation)
     return state;
 }
 
+/// Puts rows and snapshots on the disk, with one wait for it.
+void Recorder::flush_output()
+{
+    history_->flush(Flush::later);
+    fields_->flush(history_->path());
+}
+
 void Recorder::write_checkpoint()
 {
     const TimedScope timed(output_seconds_);
-    history_->flush();
-    fields_->flush();
+    flush_output();
     const RunState state = state_of(simulation_);
     checkpoints_->write(simulation_.particles(), state);
 }
@@ -314,8 +320,7 @@ Ending Recorder::finish()
     if (*ending_ == Ending::completed && !history_is_due()) add_history_row();
     {
         const TimedScope timed(output_seconds_);
-        history_->flush();
-        fields_->flush();
+        flush_output();
     }
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {

@@ -54,6 +54,7 @@ private:
     static void bring_standing_to_rest(Particles& particles);
     void write_snapshot_now();
     RunState state_of(const Simulation& simulation);
+    void flush_output();
     void write_checkpoint();
     std::filesystem::path write_start();
     void update_books();

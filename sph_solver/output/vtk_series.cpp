@@ -104,12 +104,14 @@ void VtkSeries::write_taken(const Snapshot& snapshot)
     if (std::chrono::steady_clock::now() - list_written_ >= between_lists) write_list();
 }
 
-void VtkSeries::flush()
+void VtkSeries::flush(const fs::path& other)
 {
     writer_.wait();
     if (listed_ != entries_.size()) write_list();
+    // All at once: disks, and the journals of file systems, take as long for one as for several.
+    unflushed_.insert(unflushed_.begin(), {folder_ / list_name, other});
     flush_to_disk(unflushed_);
-    flush_to_disk(std::vector<fs::path>{folder_ / list_name, folder_});
+    flush_to_disk(folder_);
     unflushed_.clear();
 }
 
