@@ -47,6 +47,20 @@ struct Probe
     }
 };
 
+/// The same, which asks for nothing but what lies above a height.
+struct LocalProbe : Probe
+{
+    const VectorField& position;
+    double height;
+
+    static constexpr bool local = true;
+
+    bool idle(const Cluster& cluster) const
+    {
+        return none_in(cluster, [&](Index i) { return position[i].z > height; });
+    }
+};
+
 struct Probed
 {
     Particles particles;
@@ -70,6 +84,32 @@ Probed probe(Particles particles, double skin, int dimensions, const char* kerne
         result.filling_by_identity[static_cast<std::size_t>(result.particles.identity[static_cast<std::size_t>(i)])] =
             result.particles.scalar("filling")[i];
     return result;
+}
+
+TEST(PairLoop, LeavesATermOutWhereItIsIdleAndLocal)
+{
+    Particles particles = jittered_lattice(14, 2, 0.2);
+    NeighbourList list(support, 0.1, 1.0, 2);
+    list.build(particles);
+    std::vector<Index> clusters(static_cast<std::size_t>(list.cluster_count()));
+    std::iota(clusters.begin(), clusters.end(), Index{0});
+    const auto probe_into = [&](const char* name) -> Probe {
+        return {particles.volume, particles.add_scalar({name, "1"}, -1.0),
+                particles.add_vector({std::string(name) + "_gradient", "1/m"})};
+    };
+    const Probe everywhere = probe_into("everywhere");
+    const LocalProbe above{probe_into("above"), particles.position, 9.0};
+    for_each_pair(list, particles, SmoothingKernel("root_free", 1.0, 2), clusters, above, everywhere);
+    int left_out = 0;
+    for (const Index c : clusters) {
+        const Cluster cluster = list.cluster(c);
+        const bool idle = above.idle(cluster);
+        left_out += idle;
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            EXPECT_EQ(above.filling[i], idle ? -1.0 : everywhere.filling[i]);
+    }
+    EXPECT_GT(left_out, 3);
+    EXPECT_LT(left_out, list.cluster_count() - 3);
 }
 
 class EveryDimension : public testing::TestWithParam<int>
