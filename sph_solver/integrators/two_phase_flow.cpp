@@ -83,7 +83,7 @@ void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
 /// Both phases have the heavier one's stiffness, and no pressure on the lattice that they start from,
 /// p = K (ρ/ρ₀ − C), C = V Σ W there. C is 1 but for what the kernel's sum over a lattice misses (−6·10⁻⁵ in two
 /// dimensions), and yet: with 1 in its place all of the space is under a tension of K (1 − C), fifty times the viscous
-/// stress around a drop that migrates, and tension drives particles apart as fast as the transport velocity evens them.
+/// stress around a drop that migrates, and uneven places then feel a force that makes them more so.
 double TwoPhaseFlow::elastic_energy(Index i) const
 {
     const double rest = scene_.materials[particles_.material[static_cast<std::size_t>(i)]].density;
