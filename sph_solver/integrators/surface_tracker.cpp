@@ -37,7 +37,8 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
             scalar("wall_cosine_sum"), scalar("wall_distance_sum"), scalar("wall_curvature_sum"),
             particles_.add_vector({"wall_foot_sum", "1"}), particles_.add_vector({"wall_lateral_sum", "1"}),
             scalar("wall_primary_sum"), scalar("wall_other_sum")});
-        if (needs_curvature_ && scene.definition.numerics.contact_line_force) {
+        const bool normals_say_the_angle = two_phase_ || std::cos(contact_angle_) > -1e-6;
+        if (needs_curvature_ && scene.definition.numerics.contact_line_force && normals_say_the_angle) {
             wall_pull_ = &particles_.add_vector({"wall_pull", "1"});
             contact_pull_ = &particles_.add_vector({"contact_pull", "1/m"});
         }
@@ -168,9 +169,9 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                 };
                 const double at_wall = std::clamp(seen - slope * scale * wall.distance_sum[top], -1.0, 1.0);
                 const Vector normal = normal_of(young);
-                const Vector chord = normal + normal_of(seen);
                 const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
-                const double depth = dot(foot, chord) / std::max(norm(chord), 1e-9);
+                const Vector continued = two_phase_ ? normal + normal_of(seen) : normal;
+                const double depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
                 if (wall_pull_ && i == top)
                     wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);
                 const double colour = std::clamp(0.5 + depth / spacing_, 0.0, 1.0);

@@ -17,11 +17,18 @@ namespace cupel::inline CUPEL_ENGINE
 ///   n̂_w = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
 ///   normal,
 ///
-/// the signed depth s below the interface continued to it, and with it the colour c = clamp(½ + s/Δx) and the weight
-/// δ = w(s). It then takes part in the smoothing of normals and in the curvature fit like any particle of the band, and
-/// the liquid's own normals are never overwritten. With means ⟨ ⟩ over the band near the wall, of weight W_wj δ_j,
+/// the signed depth s below the interface that meets the wall at this angle, and with it the colour
+/// c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in the smoothing of normals and in the curvature fit
+/// like any particle of the band, and the liquid's own normals are never overwritten. With means ⟨ ⟩ over the band near
+/// the wall, of weight W_wj δ_j,
 ///
-///   s = ⟨x_j + s_j n̂_j − x_w⟩·m̂,   m̂ the mean of n̂_w and the mean normal of the liquid: exact on a circle
+///   s = ⟨x_j + s_j n̂_j − x_w⟩·m̂      [m]
+///
+/// Between two phases m̂ is the mean of n̂_w and the mean normal of the liquid: exact on a circle. Under a free surface
+/// it is n̂_w alone, which misses the place by ½ κ d² at the distance d from the wall (2 % of a spacing on a drop of
+/// 20). There the normals beside a wall are in part what the wall's colours make them: continued by what they say, the
+/// interface in the wall follows what it has brought about itself (of a drop of 120° it stood at 135° in the wall, and
+/// normals beside it at 138°).
 ///
 /// and the angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
 /// curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
@@ -29,8 +36,6 @@ namespace cupel::inline CUPEL_ENGINE
 ///   cos θ = ⟨n̂_j·N⟩ − κ_m ⟨d_j⟩
 ///
 /// What it differs from θ_Y by pulls at the contact line (ContactPull). Sums are taken for the wall's surface layer.
-/// Near an overhanging surface the normals see too much of the wall: at 120° with a free surface the angle is taken for
-/// 15° less than it is, and the drop lets go of the wall (validation_cases/sessile_drop/README.md).
 /// Melt on its own solid has no such line to correct: there the metal's surface is followed as one, melt and solid
 /// together, and the edge of a pool stands where the metal melts, as in a volume-of-fluid model.
 /// Source: own derivation after the normal correction of Breinlinger et al. 2013, which the paper uses (section 2.5.2).
@@ -128,6 +133,10 @@ struct WallInterface
 /// (the contact line force of Huber, Keller, Säckel, Hirschler, Kunz, Hassanizadeh, Nieken 2016). δ(s) and δ_w(d) have
 /// the integral one across the surface and the wall, which meet at θ: so does sin θ δ δ_w over the plane across the
 /// line. Sums take what the wall's surface layer knows, the more the more of the surface it sees.
+/// Not under a free surface that overhangs (θ_Y above 90°): of the few particles in its wedge those of the second layer
+/// have normals that miss by 10 to 30°, and the pull feeds what makes them do so. A particle above the wall that juts
+/// out lets the surface below it look steeper, for which it is pulled out further. There the curvature that the wall's
+/// normals bring about turns the surface alone.
 struct ContactPull
 {
     Mobility mobility;
