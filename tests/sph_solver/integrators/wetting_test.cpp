@@ -36,7 +36,7 @@ TEST_P(Wetting, WallsContinueAFreeSurfaceAtYoungsAngleWhateverTheLiquidsOwn)
     Simulation simulation = simulate(drop_on_a_wall(angle), 1);
     const Particles& particles = simulation.particles();
     const ScalarField& colour = particles.scalar("colour");
-    const Vector normal{std::sin(angle), 0.0, -std::cos(angle)};
+    const Vector normal{std::sin(angle), 0.0, std::cos(angle)};
     double nearest = 1e9, furthest = -1e9;
     int seen = 0;
     for (Index i = 0; i < particles.count(); ++i) {
