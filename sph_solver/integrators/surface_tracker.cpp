@@ -15,6 +15,13 @@ bool has_kind(const Particles& particles, Kind kind)
     return std::find(particles.kind.begin(), particles.kind.end(), kind) != particles.kind.end();
 }
 
+/// Whether a free surface overhangs its wall: the wall's particles then show it at Young's angle alone, and nothing
+/// pulls at the contact line (models/wetting.hpp says why).
+bool overhangs(bool two_phase, double contact_angle)
+{
+    return !two_phase && std::cos(contact_angle) < -1e-6;
+}
+
 } // namespace
 
 SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
@@ -37,8 +44,8 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
             scalar("wall_cosine_sum"), scalar("wall_distance_sum"), scalar("wall_curvature_sum"),
             particles_.add_vector({"wall_foot_sum", "1"}), particles_.add_vector({"wall_lateral_sum", "1"}),
             scalar("wall_primary_sum"), scalar("wall_other_sum")});
-        const bool normals_say_the_angle = two_phase_ || std::cos(contact_angle_) > -1e-6;
-        if (needs_curvature_ && scene.definition.numerics.contact_line_force && normals_say_the_angle) {
+        if (needs_curvature_ && scene.definition.numerics.contact_line_force && !overhangs(two_phase_, contact_angle_))
+        {
             wall_pull_ = &particles_.add_vector({"wall_pull", "1"});
             contact_pull_ = &particles_.add_vector({"contact_pull", "1/m"});
         }
@@ -141,6 +148,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
     for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
     const WallInterface& wall = *wall_interface_;
     const double young = std::cos(contact_angle_);
+    const bool overhanging = overhangs(two_phase_, contact_angle_);
     const double kernel_at_zero = kernel_(1e-9 * h_).value;
     const double volume = dimensions_ == 2 ? spacing_ * spacing_ : spacing_ * spacing_ * spacing_;
     for (const Index c : walls) {
@@ -170,7 +178,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                 const double at_wall = std::clamp(seen - slope * scale * wall.distance_sum[top], -1.0, 1.0);
                 const Vector normal = normal_of(young);
                 const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
-                const Vector continued = two_phase_ ? normal + normal_of(seen) : normal;
+                const Vector continued = overhanging ? normal : normal + normal_of(seen);
                 const double depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
                 if (wall_pull_ && i == top)
                     wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);

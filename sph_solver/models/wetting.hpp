@@ -24,11 +24,11 @@ namespace cupel::inline CUPEL_ENGINE
 ///
 ///   s = ⟨x_j + s_j n̂_j − x_w⟩·m̂      [m]
 ///
-/// Between two phases m̂ is the mean of n̂_w and the mean normal of the liquid: exact on a circle. Under a free surface
-/// it is n̂_w alone, which misses the place by ½ κ d² at the distance d from the wall (2 % of a spacing on a drop of
-/// 20). There the normals beside a wall are in part what the wall's colours make them: continued by what they say, the
-/// interface in the wall follows what it has brought about itself (of a drop of 120° it stood at 135° in the wall, and
-/// normals beside it at 138°).
+/// m̂ is the mean of n̂_w and the mean normal of the liquid: exact on a circle. Under a free surface that overhangs (θ_Y
+/// above 90°) it is n̂_w alone, which misses the place by ½ κ d² at the distance d from the wall (2 % of a spacing on a
+/// drop of 20). There the normals beside a wall are in part what the wall's colours make them: continued by what they
+/// say, the interface in the wall follows what it has brought about itself (of a drop of 120° it stood at 135° in the
+/// wall, and normals beside it at 138°). At smaller angles the mean is steadier (a drop of 45° stirs its edge else).
 ///
 /// and the angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
 /// curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
