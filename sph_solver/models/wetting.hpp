@@ -134,7 +134,7 @@ struct WallInterface
 /// the integral one across the surface and the wall, which meet at θ: so does sin θ δ δ_w over the plane across the
 /// line. Sums take what the wall's surface layer knows, the more the more of the surface it sees.
 /// Not under a free surface that overhangs (θ_Y above 90°): of the few particles in its wedge those of the second layer
-/// have normals that miss by 10 to 30°, and the pull feeds what makes them do so. A particle above the wall that juts
+/// have normals that miss by up to 18°, and the pull feeds what makes them do so. A particle above the wall that juts
 /// out lets the surface below it look steeper, for which it is pulled out further. There the curvature that the wall's
 /// normals bring about turns the surface alone.
 struct ContactPull
