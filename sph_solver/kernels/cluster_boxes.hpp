@@ -65,7 +65,7 @@ private:
     static Filled load(const std::vector<float>& values, Index first)
     {
         Filled lanes;
-        std::memcpy(&lanes, values.data() + first, sizeof lanes);
+        std::memcpy(static_cast<void*>(&lanes), values.data() + first, sizeof lanes);
         return lanes;
     }
 

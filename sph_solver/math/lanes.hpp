@@ -57,7 +57,10 @@ public:
     Lanes() : values_{} {}
     template <std::floating_point Number> Lanes(Number value) : values_(packed<Registers>(static_cast<Real>(value))) {}
     explicit Lanes(const Registers& values) : values_(values) {}
-    explicit Lanes(const std::array<Real, lane_count>& values) { std::memcpy(&values_, &values, sizeof values_); }
+    explicit Lanes(const std::array<Real, lane_count>& values)
+    {
+        std::memcpy(static_cast<void*>(&values_), &values, sizeof values_);
+    }
 
     Real operator[](int lane) const { return number_at<Real>(values_, lane); }
     void set(int lane, double value) { set_number_at(values_, lane, static_cast<Real>(value)); }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -27,9 +25,20 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
+/// Copied half by half: GCC 12 copies what has no constructor of its own as bytes, and so by way of memory.
 template <class Half> struct Halves
 {
-    Half low, high;
+    Half low{}, high{};
+
+    Halves() = default;
+    [[gnu::always_inline]] Halves(const Half& low_half, const Half& high_half) : low(low_half), high(high_half) {}
+    [[gnu::always_inline]] Halves(const Halves& other) : low(other.low), high(other.high) {}
+    [[gnu::always_inline]] Halves& operator=(const Halves& other)
+    {
+        low = other.low;
+        high = other.high;
+        return *this;
+    }
 };
 template <class Number, int bytes> struct PackedIn
 {
