@@ -139,8 +139,8 @@ void Flow::correct_temperature_gradient(const Neighbourhood& neighbourhood, cons
 
 void Flow::hold_surface_forces()
 {
-    by_surface_ = &particles_.add_vector({"acceleration_by_surface", "m/s2"});
-    by_surface_before_ = &particles_.add_vector({"acceleration_by_surface_before", "m/s2"});
+    by_surface_ = &particles_.add_vector({"force_by_surface", "N"});
+    by_surface_before_ = &particles_.add_vector({"force_by_surface_before", "N"});
 }
 
 Vector Flow::sum_of_pair_forces(Index i) const
@@ -221,7 +221,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
     neighbourhood.for_each_moving([&](Index i) {
         Vector acceleration = (1.0 / particles_.mass[i]) * force_[i] + gravity_;
         Vector by_surface{};
-        if (by_surface_) by_surface = (1.0 / particles_.mass[i]) * (force_[i] - sum_of_pair_forces(i));
+        if (by_surface_) by_surface = force_[i] - sum_of_pair_forces(i);
         if (surface_ && surface_->fields().delta[i] > 0.0) {
             const SurfaceFields& surface = surface_->fields();
             const Vector normal = surface.normal[i];
@@ -233,7 +233,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
                                             : surface_load_force((*load_)[i], {}, 0.0, normal, delta);
             if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
             const double lightness = 1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i]);
-            by_surface += lightness * force_density;
+            by_surface += (particles_.mass[i] * lightness) * force_density;
             if (with_marangoni_ && !stress_share_)
                 force_density += marangoni_force(tension_.slope, (*temperature_gradient_)[i], normal, delta);
             acceleration += lightness * force_density;

@@ -90,7 +90,7 @@ public:
     Vector impulsive_acceleration(Index i) const
     {
         const Vector impulsive = acceleration_[i] - acceleration_by_sound(i);
-        return by_surface_ ? impulsive - (*by_surface_)[i] : impulsive;
+        return by_surface_ ? impulsive - (1.0 / particles_.mass[i]) * (*by_surface_)[i] : impulsive;
     }
     /// What a kick adds to the velocity of particle i, m/s.
     Vector kick(Index i, const KickTimes& times) const
@@ -129,10 +129,13 @@ protected:
     void correct_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Registers what is held of the surface's forces while sound is followed.
     void hold_surface_forces();
-    /// What shares the time of sound and not of all else: nothing where both are the same.
+    /// What shares the time of sound and not of all else: nothing where both are the same. It is the force that is
+    /// held, not the acceleration, since shifting exchanges mass meanwhile.
     Vector kick_by_surface(Index i, const KickTimes& times) const
     {
-        return (times.surface - times.slow) * (*by_surface_)[i] + times.surface_before * (*by_surface_before_)[i];
+        const Vector impulse =
+            (times.surface - times.slow) * (*by_surface_)[i] + times.surface_before * (*by_surface_before_)[i];
+        return (1.0 / particles_.mass[i]) * impulse;
     }
     /// Pressure and viscosity, and the artificial forces, N.
     Vector sum_of_pair_forces(Index i) const;
@@ -157,7 +160,7 @@ protected:
     VectorField* wall_force_ = nullptr;       ///< of pressure_force_, what walls and solids press: for the books
     VectorField* artificial_force_ = nullptr; ///< only where a case switches such forces on
     VectorField& acceleration_;
-    VectorField* by_surface_ = nullptr;        ///< acceleration by load, cohesion: only where it is held
+    VectorField* by_surface_ = nullptr;        ///< force of load, cohesion, N: only where it is held
     VectorField* by_surface_before_ = nullptr; ///< a step ago
     MechanicalWork books_;
     std::unique_ptr<SurfaceTracker> surface_;

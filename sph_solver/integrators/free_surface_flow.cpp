@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "models/closed_surface_tension.hpp"
 #include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
 #include "models/momentum.hpp"
@@ -31,6 +32,8 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
         carried_mean_ = &particles_.add_scalar({"carried_load_mean", "Pa"});
         carried_gradient_ = &particles_.add_vector({"carried_load_gradient", "Pa/m"});
+        tension_alone_ = scene.definition.requires_physics("surface_tension") &&
+                         !scene.definition.requires_physics("recoil") && !temperature_;
     }
     if (temperature_gradient_) {
         stress_share_ = &particles_.add_scalar({"surface_stress_share", "1/m"});
@@ -325,6 +328,9 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         force_.set(i, force_[i] - particles_.volume[i] * (*carried_gradient_)[i]);
         particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
     });
+    if (!tension_alone_) return;
+    for (const std::vector<Index>& body : free_bodies_.find(neighbourhood, particles_, mobility_.weight))
+        ClosedSurfaceTension{particles_.mass, particles_.volume, *carried_gradient_, force_}.balance(body);
 }
 
 /// Walls and solids as the liquid before them sees them: pressure, and from it density and volume.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/flow.hpp"
+#include "integrators/free_bodies.hpp"
 #include "models/shifting_exchange.hpp"
 #include "models/surface_stress.hpp"
 #include "models/velocity_gradient.hpp"
@@ -59,6 +60,8 @@ private:
     ScalarField* carried_load_ = nullptr;
     ScalarField* carried_mean_ = nullptr;
     VectorField* carried_gradient_ = nullptr;
+    bool tension_alone_ = false; ///< whether the load is the same tension everywhere, and nothing else
+    FreeBodies free_bodies_;
     VectorField* density_gradient_ = nullptr; ///< only where density diffuses
     ScalarField* diffusion_rate_ = nullptr;
     // Only where the case shifts particles:

@@ -74,6 +74,7 @@ bool Neighbourhood::meets_what_stands(const Particles& particles, const ScalarFi
 
 void Neighbourhood::classify(const Particles& particles, const ScalarField& mobility)
 {
+    ++version_;
     moving_particles_.clear();
     std::vector<unsigned char> moves(all_.size(), 0), touched(all_.size(), 0);
     for (Index i = 0; i < particles.count(); ++i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,8 @@ public:
     void classify(const Particles& particles, const ScalarField& mobility);
 
     const NeighbourList& list() const { return list_; }
+    /// Counts how often lists, or what moves, have changed.
+    std::uint64_t version() const { return version_; }
     const std::vector<Index>& all() const { return all_; }
     const std::vector<Index>& moving() const { return moving_; }
     const std::vector<Index>& standing() const { return standing_; }
@@ -55,6 +58,7 @@ private:
     std::vector<Index> all_, moving_, standing_, moving_particles_;
     std::vector<Index> wandered_; ///< clusters in which something has moved since it was listed
     std::vector<unsigned char> has_wandered_;
+    std::uint64_t version_ = 0;
     bool computes_everywhere_ = false, lists_everywhere_ = false;
 };
 

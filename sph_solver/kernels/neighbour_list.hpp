@@ -112,6 +112,7 @@ public:
     std::uint64_t builds() const { return builds_; }
     std::uint64_t refreshes() const { return refreshes_; }
     double support() const { return support_; }
+    double skin() const { return skin_; }
     /// Corners of the box that the particles spanned when they were last listed, m.
     const Vector& lower() const { return lower_; }
     const Vector& upper() const { return upper_; }
