@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/shifting.hpp"
@@ -20,6 +21,16 @@ namespace cupel::inline CUPEL_ENGINE
 /// velocities v = −δu remain for ever (a static drop of La 120: spurious capillary number 4.8e-4, falling with that
 /// pressure). With the local strain rate such velocities, which differ from one particle to the next, have a strain of
 /// their own and keep themselves alive (5.3e-4 at s = 15; the mean, in which they cancel, 1.1e-4).
+///
+/// Beside a wall the part of it along the wall's normal is left out, with w_i = Σ_j V_j ∇W_ij over the wall's
+/// particles,
+///
+///   δu_i −= min(1, 5/2 h |w_i|) (δu_i·w_i) w_i/|w_i|²
+///
+/// Places cannot follow it there: the wall stands, and its particles, which no transport velocity has arranged, push
+/// the first row off or pull it in for as long as anything strains. Where an interface meets the wall that kept two
+/// phases at 120° stirring (2 cm/s at 10 s, base +3.8 %; without it at rest after 4 s, +0.5 %). The 5/2 is chosen: all
+/// of it in the first row, a third in the second.
 struct TransportVelocity
 {
     Mobility mobility;
@@ -52,7 +63,7 @@ struct TransportVelocity
     };
     struct Sum
     {
-        VectorLanes unevenness{};
+        VectorLanes unevenness{}, wall{};
         Lanes weight{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
     };
 
@@ -74,7 +85,10 @@ struct TransportVelocity
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.unevenness += ((i.volume * i.volume + j.volume * j.volume) * pair.gradient_over_r) * pair.offset;
-        if (j.liquid == 0) return;
+        if (j.liquid == 0) {
+            sum.wall += (j.volume * pair.gradient_over_r) * pair.offset;
+            return;
+        }
         const Lanes weight = pair.volume_kernel;
         sum.weight += weight;
         sum.xx += j.xx * weight;
@@ -95,9 +109,22 @@ struct TransportVelocity
             const double speed = shifting_speed(strength, smoothing_length, strain_rate, greatest_speed);
             Vector u = (-smoothing_length * speed / volume[k]) *
                        Vector{sum.unevenness.x[lane], sum.unevenness.y[lane], sum.unevenness.z[lane]};
+            u = u - along_wall_normal(u, Vector{sum.wall.x[lane], sum.wall.y[lane], sum.wall.z[lane]});
             if (const double size = norm(u), limit = 0.5 * speed; size > limit) u = (limit / size) * u;
             transport_velocity.set(k, u);
         }
+    }
+
+private:
+    static constexpr double share_of_first_row = 2.5;
+
+    /// What a wall's particles take from a transport velocity [m/s], given their Σ_j V_j ∇W_ij [1/m].
+    Vector along_wall_normal(const Vector& u, const Vector& wall) const
+    {
+        const double size = norm(wall);
+        if (size == 0.0) return {};
+        const double share = std::min(1.0, share_of_first_row * smoothing_length * size);
+        return (share * dot(u, wall) / (size * size)) * wall;
     }
 };
 

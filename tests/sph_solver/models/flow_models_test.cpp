@@ -373,6 +373,42 @@ TEST_P(FlowModels, TransportBetweenPhasesFollowsTheMeanStrain)
     EXPECT_LT(stirred / local, 0.75 * sheared / 0.4);
 }
 
+TEST_P(FlowModels, TransportBetweenPhasesKeepsTheFirstRowAtItsDistanceFromAWall)
+{
+    Block block(GetParam(), 12, 0.2);
+    Particles& particles = block.particles;
+    for (Index i = 0; i < particles.count(); ++i)
+        block.mobility[i] = particles.position[i].z < 4.0 ? 0.0 : 1.0;
+    block.neighbourhood.rebuild(particles, block.mobility);
+    for (Index i = 0; i < particles.count(); ++i)
+        particles.velocity.set(i, {0.4 * particles.position[i].z, 0.0, 0.0});
+    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    VectorField& transport = particles.add_vector({"transport_velocity", "m/s"});
+    block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
+    block.run(TransportVelocity{{block.mobility}, 0.05, 1.0, 1e9, particles.volume, gradient, transport});
+    int first = 0, further = 0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        if (block.mobility[i] == 0.0) continue;
+        Vector wall{};
+        for (Index j = 0; j < particles.count(); ++j)
+            if (block.mobility[j] == 0.0) {
+                const Vector offset = particles.position[i] - particles.position[j];
+                wall += block.kernel(norm(offset)).gradient_over_r * offset;
+            }
+        const Vector u = transport[i];
+        const double normal = std::abs(dot(u, wall)), size = norm(wall);
+        if (2.5 * size > 1.0) { // all of the normal part is left out, and the rest is not
+            EXPECT_LT(normal, 1e-4 * size * norm(u)) << particles.position[i].z;
+            ++first;
+        }
+        else if (size > 0.0) {
+            further += normal > 0.1 * size * norm(u) ? 1 : 0;
+        }
+    }
+    EXPECT_GE(first, GetParam() == 2 ? 6 : 72);
+    EXPECT_GE(further, first);
+}
+
 TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
 {
     Block block(GetParam());
