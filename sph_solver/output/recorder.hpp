@@ -54,7 +54,8 @@ private:
     static void bring_standing_to_rest(Particles& particles);
     void write_snapshot_now();
     RunState state_of(const Simulation& simulation);
-    void flush_output();
+    void flush_output(Flush when = Flush::now);
+    Flush flush_at_end() const;
     void write_checkpoint();
     std::filesystem::path write_start();
     void update_books();

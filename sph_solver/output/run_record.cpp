@@ -125,11 +125,11 @@ nlohmann::ordered_json record_as_json(const RunRecord& record)
             {"cost", cost_as_json(record.cost)}};
 }
 
-void write_record(const std::filesystem::path& file, const RunRecord& record)
+void write_record(const std::filesystem::path& file, const RunRecord& record, Flush flush)
 {
     // Text from outside (a path, a title) may not be valid UTF-8: such bytes are replaced, not a reason to lose a run.
     constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    write_whole(file, record_as_json(record).dump(1, ' ', false, replace) + "\n");
+    write_whole(file, record_as_json(record).dump(1, ' ', false, replace) + "\n", flush);
 }
 
 } // namespace cupel

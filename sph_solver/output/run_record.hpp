@@ -87,6 +87,6 @@ struct RunRecord
 nlohmann::ordered_json record_as_json(const RunRecord& record);
 
 /// Writes the record, whole or not at all: the last file that a run writes. Throws OutputError.
-void write_record(const std::filesystem::path& file, const RunRecord& record);
+void write_record(const std::filesystem::path& file, const RunRecord& record, Flush flush = Flush::now);
 
 } // namespace cupel

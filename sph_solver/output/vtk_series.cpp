@@ -104,10 +104,11 @@ void VtkSeries::write_taken(const Snapshot& snapshot)
     if (std::chrono::steady_clock::now() - list_written_ >= between_lists) write_list();
 }
 
-void VtkSeries::flush(const fs::path& other)
+void VtkSeries::flush(const fs::path& other, Flush when)
 {
     writer_.wait();
     if (listed_ != entries_.size()) write_list();
+    if (when == Flush::later) return;
     // All at once: disks, and the journals of file systems, take as long for one as for several.
     unflushed_.insert(unflushed_.begin(), {folder_ / list_name, other});
     flush_to_disk(unflushed_);

@@ -48,9 +48,9 @@ public:
     /// OutputError.
     void wait() { writer_.wait(); }
 
-    /// Waits until all snapshots, the list of them and another file, if one is given, are on the disk. Throws
-    /// OutputError.
-    void flush(const std::filesystem::path& other = {});
+    /// Waits until all snapshots and the list of them are written and, unless that is left for later, until they and
+    /// another file, if one is given, are on the disk. Throws OutputError.
+    void flush(const std::filesystem::path& other = {}, Flush when = Flush::now);
 
     /// The snapshots up to a time [s]. Throws OutputError.
     SnapshotList until(double time);

@@ -156,6 +156,15 @@ TEST_F(VtkFiles, SeriesListsEverySnapshotWithItsTime)
     EXPECT_THROW(series.write(particles, 0.5e-4), std::logic_error);
 }
 
+TEST_F(VtkFiles, SeriesListsAllWhetherOrNotTheDiskIsWaitedFor)
+{
+    VtkSeries series(folder, some_provenance());
+    series.write(particles, 0.0);
+    series.write(particles, 0.1);
+    series.flush({}, Flush::later);
+    EXPECT_NE(read_whole(folder / "fields.pvd").find("file=\"fields_000001.vtp\""), std::string::npos);
+}
+
 TEST_F(VtkFiles, ResumedSeriesDropsWhatCameLaterAndGoesOn)
 {
     SnapshotList earlier;
