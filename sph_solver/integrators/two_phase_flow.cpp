@@ -9,7 +9,6 @@
 #include "models/sound.hpp"
 #include "models/transport_velocity.hpp"
 #include "models/viscous_traction.hpp"
-#include "models/wall_compression.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -97,7 +96,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
     sound_ahead_ = 0.0;
     compress(neighbourhood, sound);
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_velocity(),
-                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
+                  wall_compression());
     compress_walls(neighbourhood, time_step == 0.0, sound);
     if (surface_ && time_step == 0.0) surface_->start(neighbourhood);
     find_gradients(neighbourhood);
@@ -112,8 +111,7 @@ void TwoPhaseFlow::evaluate(const Neighbourhood& neighbourhood, double time_step
 void TwoPhaseFlow::evaluate_sound(const Neighbourhood& neighbourhood, const SoundStep& step)
 {
     compress(neighbourhood, step.time_step);
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(),
-                  WallCompression{mobility_, transport_velocity_, liquid_number_, transport_number_});
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.standing(), wall_compression());
     compress_walls(neighbourhood, false, step.time_step);
     for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
                   TwoPhasePressureForce{mobility_, particles_.volume, *excess_pressure_, pressure_force_});

@@ -4,6 +4,7 @@
 
 #include "integrators/flow.hpp"
 #include "models/velocity_gradient.hpp"
+#include "models/wall_compression.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -24,6 +25,10 @@ public:
 
 private:
     void compress(const Neighbourhood& neighbourhood, double time_step);
+    WallCompression wall_compression() const
+    {
+        return {mobility_, transport_velocity_, liquid_number_, transport_number_};
+    }
     void compress_walls(const Neighbourhood& neighbourhood, bool at_start, double time_step);
     void find_gradients(const Neighbourhood& neighbourhood);
     void find_forces(const Neighbourhood& neighbourhood);

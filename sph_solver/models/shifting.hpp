@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "models/shifting_exchange.hpp"
 #include "models/term.hpp"
 #include "models/velocity_gradient.hpp"

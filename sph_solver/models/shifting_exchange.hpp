@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "models/term.hpp"
 
 namespace cupel::inline CUPEL_ENGINE

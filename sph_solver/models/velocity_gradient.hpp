@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "models/gradient_correction.hpp"
 #include "models/term.hpp"
 
