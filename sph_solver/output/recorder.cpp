@@ -210,7 +210,7 @@ void Recorder::flush_output(Flush when)
 /// system's journal) guards against a loss of power within the next seconds; a short run is sooner made again.
 Flush Recorder::flush_at_end() const
 {
-    constexpr double worth_the_wait = 0.5; // s: with the longest such wait, output takes 5 % of a run
+    constexpr double worth_the_wait = 0.5; // s: with the longest such wait, output takes about 5 % of a run
     return cost_->wall_seconds() < worth_the_wait ? Flush::later : Flush::now;
 }
 
