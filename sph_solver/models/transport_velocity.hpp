@@ -109,7 +109,7 @@ struct TransportVelocity
             const double speed = shifting_speed(strength, smoothing_length, strain_rate, greatest_speed);
             Vector u = (-smoothing_length * speed / volume[k]) *
                        Vector{sum.unevenness.x[lane], sum.unevenness.y[lane], sum.unevenness.z[lane]};
-            u = u - along_wall_normal(u, Vector{sum.wall.x[lane], sum.wall.y[lane], sum.wall.z[lane]});
+            u -= along_wall_normal(u, Vector{sum.wall.x[lane], sum.wall.y[lane], sum.wall.z[lane]});
             if (const double size = norm(u), limit = 0.5 * speed; size > limit) u = (limit / size) * u;
             transport_velocity.set(k, u);
         }

@@ -326,9 +326,10 @@ Ending Recorder::finish()
 {
     // A step may already have its row; a stopped run ends with that of its last good state.
     if (*ending_ == Ending::completed && !history_is_due()) add_history_row();
+    const Flush flush = flush_at_end(); // once: the record of a run is not on the disk for sure before the run's output
     {
         const TimedScope timed(output_seconds_);
-        flush_output(flush_at_end());
+        flush_output(flush);
     }
     progress_->write(simulation_.time(), simulation_.steps());
     if (*ending_ == Ending::interrupted) {
@@ -359,7 +360,7 @@ Ending Recorder::finish()
             {"convection", books.convection}};
     }
     record.cost = *ending_ == Ending::stopped ? cost_when_stopped_ : cost_so_far();
-    write_record(folder_.record(), record, flush_at_end());
+    write_record(folder_.record(), record, flush);
     log_->info("{} after {} steps, {:.1f} CPU s", *ending_ == Ending::completed ? "completed" : "stopped",
                record.cost.steps, record.cost.cpu_seconds);
     return *ending_;
