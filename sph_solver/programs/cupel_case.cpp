@@ -40,7 +40,7 @@ int main(int argument_count, char** arguments)
     bool without_files = false;
     CLI::App* resolve = program.add_subcommand("resolve", "print the resolved case as JSON");
     resolve->add_option("case", case_file, "the case file")->required();
-    resolve->add_option("--level", options.level, "coarse, medium, fine or paper")->capture_default_str();
+    resolve->add_option("--level", options.level, "rough, coarse, intermediate, medium, fine or paper")->capture_default_str();
     resolve->add_option("--variation", options.variation, "name of one of the case's variations, where it has some");
     resolve->add_option("--set", options.overrides, "override as KEY=VALUE, e.g. --set time.end=\"1 ms\"")
         ->allow_extra_args(false);

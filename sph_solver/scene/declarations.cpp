@@ -143,7 +143,7 @@ const Table& case_declaration()
 
 const std::vector<std::string>& level_names()
 {
-    static const std::vector<std::string> names{"coarse", "medium", "fine", "paper"};
+    static const std::vector<std::string> names{"rough", "coarse", "intermediate", "medium", "fine", "paper"};
     return names;
 }
 
