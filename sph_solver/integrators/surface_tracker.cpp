@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -13,6 +15,16 @@ namespace
 bool has_kind(const Particles& particles, Kind kind)
 {
     return std::find(particles.kind.begin(), particles.kind.end(), kind) != particles.kind.end();
+}
+
+/// Normal of a surface that curves by `curvature`, 1/m, and depth below it, m, at a place from which its point with the
+/// normal n̂ lies at `foot`:   v = −foot,   (n̂ + κ v)/|n̂ + κ v|,   (1 − |n̂ + κ v|)/κ = −(2 v·n̂ + κ v²)/(1 + |n̂ + κ v|)
+std::pair<Vector, double> on_circle(const Vector& foot, const Vector& normal, double curvature)
+{
+    const Vector outward = normal - curvature * foot;
+    const double length = norm(outward);
+    const double depth = (2.0 * dot(foot, normal) - curvature * dot(foot, foot)) / (1.0 + length);
+    return {(1.0 / std::max(length, 1e-9)) * outward, depth};
 }
 
 /// Whether a free surface overhangs its wall: the wall's particles then show it at Young's angle alone, and nothing
@@ -26,7 +38,8 @@ bool overhangs(bool two_phase, double contact_angle)
 
 SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
                                const ScalarField& mobility, bool sharpens)
-    : particles_(*scene.particles), kernel_(kernel), mobility_{mobility}, profile_(kernel, scene.dimensions),
+    : particles_(*scene.particles), kernel_(kernel), mobility_{mobility},
+      profile_(kernel, scene.dimensions, scene.two_phase ? 0.0 : scene.spacing),
       fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),
       needs_curvature_(scene.definition.requires_physics("surface_tension")), sharpens_(sharpens),
       spacing_(scene.spacing), h_(parameters.smoothing_length), full_companions_(lattice_companions(scene.dimensions))
@@ -176,10 +189,17 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                     return std::sqrt(1.0 - cosine * cosine) * along + cosine * inward;
                 };
                 const double at_wall = std::clamp(seen - slope * scale * wall.distance_sum[top], -1.0, 1.0);
-                const Vector normal = normal_of(young);
                 const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
-                const Vector continued = overhanging ? normal : normal + normal_of(seen);
-                const double depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
+                Vector normal = normal_of(young);
+                double depth = 0.0;
+                if (overhanging) {
+                    const Vector at_foot = normal_of(young + slope * scale * wall.distance_sum[top]);
+                    std::tie(normal, depth) = on_circle(foot, at_foot, slope);
+                }
+                else {
+                    const Vector continued = normal + normal_of(seen);
+                    depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
+                }
                 if (wall_pull_ && i == top)
                     wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);
                 const double colour = std::clamp(0.5 + depth / spacing_, 0.0, 1.0);
@@ -213,8 +233,10 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
     const double smallest = (two_phase_ ? thresholds_.curvature_two_phase : thresholds_.curvature_free_surface) / h_;
     // A drop of two spacings across is the smallest that curvature can mean anything for.
     const double greatest = (two_phase_ ? 1.0 : 0.4) / spacing_;
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, particles_.volume, fields_});
+    const double flatness = two_phase_ ? 0.0 : 0.5 * profile_.tangential_variance();
+    for_each_pair(
+        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+        TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, flatness, particles_.volume, fields_});
     for_each_pair(
         neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
         CurvatureSmoothing{mobility_, fields_, fields_.curvature_valid, fields_.raw_curvature, fields_.curvature});

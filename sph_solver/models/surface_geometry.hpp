@@ -201,14 +201,17 @@ struct SurfaceNeighbourhood
 ///
 ///   κ_i = tr { [Σ w Δn̂ ⊗ Δx] [Σ w Δx ⊗ Δx]⁻¹ },   Δx, Δn̂ projected on the tangents      [1/m]
 ///
-/// and from it that of the surface itself, which lies s outside (of_parallel_surface).
-/// Unlike −∇·n̂ summed with kernel gradients it needs no full neighbourhood on both sides of the band.
+/// and from it that of the surface itself, which lies s outside (of_parallel_surface). The depth s was taken from the
+/// smoothed colour as if the surface were flat; where it is not, ½ κ ⟨x²⟩ is added
+/// (ColourProfile::tangential_variance). Unlike −∇·n̂ summed with kernel gradients it needs no full neighbourhood on
+/// both sides of the band.
 struct TangentPlaneCurvature
 {
     Mobility mobility;
     int dimensions;
     double smallest_delta;     ///< below it a particle takes no part, 1/m
     double greatest_curvature; ///< limit, 1/m
+    double flatness;           ///< ½ ⟨x²⟩ of the kernel along the surface, m²; 0 leaves depths as they are
     const ScalarField& volume;
     SurfaceFields surface;
 
@@ -291,6 +294,7 @@ struct TangentPlaneCurvature
                         determinant;
                 product = (sum.n1_x[lane] * sum.n2_y[lane] - sum.n1_y[lane] * sum.n2_x[lane]) / determinant;
             }
+            surface.depth[i] += flatness * std::clamp(trace, -greatest_curvature, greatest_curvature);
             const double curvature = of_parallel_surface(trace, product, surface.depth[i]);
             surface.raw_curvature[i] = std::clamp(curvature, -greatest_curvature, greatest_curvature);
             surface.curvature_valid[i] = 1.0;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <random>
 
+#include "scene/free_drop.hpp"
 #include "scene/powder_bed.hpp"
 #include "scene/shape.hpp"
 
@@ -193,33 +193,27 @@ void disturb(const Case& definition, std::vector<Placement>& placements)
     }
 }
 
-/// Volume of a ball (in two dimensions of a disc, for a breadth of 1 m), less what top and bottom of the domain cut
-/// off; none where its sides cut it.
-std::optional<double> volume_in_domain(const Body& ball, const Domain& domain, int dimensions)
-{
-    const double radius = ball.radius;
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        if ((axis == 0 || dimensions == 3) &&
-            (ball.center[axis] - radius < domain.lower[axis] || ball.center[axis] + radius > domain.upper[axis]))
-            return std::nullopt;
-    const auto below = [&](double z) {
-        z = std::clamp(z - ball.center[2], -radius, radius);
-        return dimensions == 2 ? z * std::sqrt(radius * radius - z * z) + radius * radius * std::asin(z / radius)
-                               : std::numbers::pi * z * (radius * radius - z * z / 3.0);
-    };
-    return below(domain.upper[2]) - below(domain.lower[2]);
-}
-
 /// A ball that is cut from a lattice holds too much or too little: at 20 spacings a diameter 0.6 % too much, which
 /// makes it oscillate 0.4 % too slowly. A drop with nothing around it is therefore swollen or shrunk about its centre
-/// until its particles hold its volume. Returns the volume of each.
-double fit_volume(const Case& definition, bool two_phase, double lattice_volume, std::vector<Placement>& placements)
+/// until its particles hold its volume; one in two dimensions that touches no wall is placed on rings instead. Returns
+/// the volume of each.
+double place_free_drop(const Case& definition, bool two_phase, double lattice_volume,
+                       std::vector<Placement>& placements)
 {
     const Body& body = definition.bodies.front();
     if (two_phase || definition.bodies.size() != 1 || body.solid || body.shape != BodyShape::sphere)
         return lattice_volume;
     const auto volume = volume_in_domain(body, definition.domain, definition.dimensions);
     if (!volume) return lattice_volume;
+    if (definition.dimensions == 2 && whole_in_domain(body, definition.domain)) {
+        Placement placement = placements.front();
+        placements.clear();
+        for (const auto& place : disc_on_rings(body, definition.spacing)) {
+            placement.position = to_vector(place);
+            placements.push_back(placement);
+        }
+        return *volume / static_cast<double>(placements.size());
+    }
     const double share = *volume / static_cast<double>(placements.size());
     const double scale = std::pow(share / lattice_volume, 1.0 / definition.dimensions);
     const Vector center = to_vector(body.center);
@@ -337,7 +331,7 @@ Scene place_particles(const Case& definition)
         throw CaseError("resolution: no particle fits into any body at a spacing of " +
                         std::to_string(definition.spacing) + " m; choose a finer one");
     const double lattice_volume = std::pow(scene.spacing, scene.dimensions);
-    scene.particle_volume = fit_volume(definition, scene.two_phase, lattice_volume, placements);
+    scene.particle_volume = place_free_drop(definition, scene.two_phase, lattice_volume, placements);
     disturb(definition, placements);
     // A scene that is solid to its borders needs no walls: nothing molten reaches them.
     if (any_fluid) place_walls(definition, lattice, placements);

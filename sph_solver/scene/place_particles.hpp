@@ -24,8 +24,9 @@ struct Scene
     double particle_volume = 0; ///< spacing³ (spacing² · 1 m in two dimensions), or what a ball's share is, m³
 };
 
-/// Fills the domain's bodies with particles on a cubic lattice, the surrounding as well where it is resolved, and puts
-/// layers of wall particles behind every wall that a fluid can touch. Throws CaseError where the case cannot be filled.
+/// Fills the domain's bodies with particles on a cubic lattice (a lone disc of liquid on rings), the surrounding as
+/// well where it is resolved, and puts layers of wall particles behind every wall that a fluid can touch. Throws
+/// CaseError where the case cannot be filled.
 Scene place_particles(const Case& definition);
 
 } // namespace cupel

@@ -178,7 +178,7 @@ TEST(Simulation, DropInNothingHasItsLaplacePressureAndRests)
         ++inside;
     }
     ASSERT_GT(inside, 60);
-    EXPECT_NEAR(pressure / inside, 1.0 / 0.4, 0.03 / 0.4);
+    EXPECT_NEAR(pressure / inside, 1.0 / 0.4, 0.001 / 0.4);
     // The load is carried inside, so that density has nearly nothing to bear.
     EXPECT_LT(std::abs(excess / inside), 0.05 / 0.4);
     EXPECT_LT(fastest, 0.05 * std::sqrt(1.0 / 0.4)); // of the capillary speed

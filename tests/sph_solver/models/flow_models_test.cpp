@@ -587,6 +587,34 @@ TEST(ColourProfile, IsOneHalfOnTheSurfaceAndInverseToItself)
     EXPECT_NEAR(profile.depth(0.8), -profile.depth(0.2), 1e-12);
 }
 
+TEST(ColourProfile, OutermostRowOfALatticeLiesHalfASpacingDeep)
+{
+    for (const int dimensions : {2, 3}) {
+        const RootFree kernel(1.0, dimensions);
+        // The smoothed colour of a particle in the k-th row of a half space of lattice points.
+        const auto colour = [&](int row) {
+            double sum = 0.0;
+            for (int z = -3; z <= row; ++z)
+                for (int x = -3; x <= 3; ++x)
+                    for (int y = dimensions == 2 ? 0 : -3; y <= (dimensions == 2 ? 0 : 3); ++y)
+                        sum += kernel(std::sqrt(double(x * x + y * y + z * z))).value;
+            return sum;
+        };
+        const ColourProfile flat(kernel, dimensions), rows(kernel, dimensions, 1.0);
+        EXPECT_NEAR(flat.depth(colour(0)), 0.545, 0.005);
+        EXPECT_NEAR(rows.depth(colour(0)), 0.5, 1e-3);
+        // Second moment of the kernel along a row, by a sum.
+        double weight = 0.0, moment = 0.0;
+        for (double x = -3.0; x <= 3.0; x += 0.05)
+            for (double y = dimensions == 2 ? 0.0 : -3.0; y <= (dimensions == 2 ? 0.0 : 3.0); y += 0.05) {
+                const double value = kernel(std::sqrt(x * x + y * y + 0.25)).value;
+                weight += value;
+                moment += value * x * x;
+            }
+        EXPECT_NEAR(rows.tangential_variance(), moment / weight, 1e-3);
+    }
+}
+
 TEST(TangentPlaneCurvature, IsThatOfTheSurfaceAboveTheParticle)
 {
     // Spheres, cylinders and a saddle through a particle at depth s: principal curvatures k become k/(1 + k s).
