@@ -27,8 +27,8 @@ std::pair<Vector, double> on_circle(const Vector& foot, const Vector& normal, do
     return {(1.0 / std::max(length, 1e-9)) * outward, depth};
 }
 
-/// Whether a free surface overhangs its wall: the wall's particles then show it at Young's angle alone, and nothing
-/// pulls at the contact line (models/wetting.hpp says why).
+/// Whether a free surface overhangs its wall: the wall's particles then continue it as a circle, and nothing pulls at
+/// the contact line (models/wetting.hpp says why).
 bool overhangs(bool two_phase, double contact_angle)
 {
     return !two_phase && std::cos(contact_angle) < -1e-6;
