@@ -116,27 +116,31 @@ void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
     };
     const auto sum_with_continuity = [&](auto with_walls, const auto&... others) {
         // It reads what the gradient has just stored for the same cluster.
-        sum_all(Continuity<with_walls()>{mobility_, particles_.density, particles_.velocity, velocity_gradient_,
-                                         carried_load_ ? &surface_->fields().delta : nullptr, density_rate_,
-                                         density_rate_by_walls_, replaced_rate_},
-                others...);
+        const Continuity<with_walls()> continuity{mobility_,
+                                                  particles_.density,
+                                                  particles_.velocity,
+                                                  velocity_gradient_,
+                                                  carried_load_ ? &surface_->fields().delta : nullptr,
+                                                  density_rate_,
+                                                  density_rate_by_walls_,
+                                                  replaced_rate_};
+        if (!density_gradient_) return sum_all(continuity, others...);
+        sum_all(
+            continuity,
+            DensityDiffusion<with_walls()>{mobility_, particles_.density, *density_gradient_,
+                                           scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
+                                               parameters_.equation_of_state.sound_speed,
+                                           *diffusion_rate_},
+            others...);
     };
-    const auto sum = [&](const auto&... others) {
-        const auto sum_with_diffusion = [&](const auto&... diffusion) {
-            neighbourhood.standing().empty() ? sum_with_continuity(std::false_type{}, diffusion..., others...)
-                                             : sum_with_continuity(std::true_type{}, diffusion..., others...);
-        };
-        if (!density_gradient_) return sum_with_diffusion();
-        sum_with_diffusion(
-            DensityDiffusion{mobility_, particles_.density, *density_gradient_,
-                             scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
-                                 parameters_.equation_of_state.sound_speed,
-                             *diffusion_rate_});
+    const auto sum = [&](auto with_walls) {
+        if (!surface_) return sum_with_continuity(with_walls);
+        const auto colour = surface_->colour_gradient<false>();
+        if (!shift_ || exchanged_) return sum_with_continuity(with_walls, colour);
+        sum_with_exchange<with_walls()>(
+            neighbourhood, [&](const auto& exchange) { sum_with_continuity(with_walls, colour, exchange); });
     };
-    if (!surface_) return sum();
-    const auto colour = surface_->colour_gradient<false>();
-    if (!shift_ || exchanged_) return sum(colour);
-    sum_with_exchange(neighbourhood, [&](const auto& exchange) { sum(colour, exchange); });
+    neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});
 }
 
 /// Mass goes from particle to particle with its momentum and its enthalpy.
@@ -187,14 +191,14 @@ MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
     // What a change of density is worth. Where it was limited, forces have never seen what is cut off: it is worth what
     // the pressures at both ends of the step say, and the limiter answers for the rest.
     double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
-    if (particles_.density[i] != unlimited)
-        worth = 0.5 * particles_.mass[i] * (stiffness(density_before) + stiffness(particles_.density[i]));
+    const bool limited = particles_.density[i] != unlimited;
+    if (limited) worth = 0.5 * particles_.mass[i] * (stiffness(density_before) + stiffness(particles_.density[i]));
     const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
     work.compression = worth * times.flow * (density_rate_[i] - replaced);
     work.imbalance = worth * times.flow * (replaced + density_rate_by_walls_[i]);
     work.density_diffusion = worth * diffused;
     work.shifting = worth * shifted;
-    work.limiter = particles_.mass[i] * (energy() - before) - worth * changes;
+    work.limiter = particles_.mass[i] * ((limited ? energy() : compressed) - before) - worth * changes;
     return work;
 }
 

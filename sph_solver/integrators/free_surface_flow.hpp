@@ -31,7 +31,8 @@ public:
 private:
     void start_hydrostatic();
     void find_rates(const Neighbourhood& neighbourhood);
-    template <class SumWith> void sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with);
+    template <bool with_walls, class SumWith>
+    void sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with);
     void exchange(const Neighbourhood& neighbourhood, double time_step);
     struct CompressionTimes
     {
@@ -77,27 +78,28 @@ private:
 };
 
 /// Sums what shifting carries between particles together with other terms.
-template <class SumWith>
+template <bool with_walls, class SumWith>
 void FreeSurfaceFlow::sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with)
 {
     const double lattice_mass = rest_density_ * scene_.particle_volume;
     neighbourhood.for_each_moving(
         [&](Index i) { (*balance_)[i] = exchange_balance(particles_.mass[i], lattice_mass); });
     const auto exchange = [&](auto with_enthalpy) {
-        return ShiftingExchange<with_enthalpy()>{mobility_,
-                                                 particles_.volume,
-                                                 particles_.density,
-                                                 particles_.velocity,
-                                                 *shift_,
-                                                 particles_.mass,
-                                                 *shifting_speed_,
-                                                 0.5 * parameters_.smoothing_length / scene_.particle_volume,
-                                                 *balance_,
-                                                 enthalpy_,
-                                                 *shifting_density_rate_,
-                                                 *mass_rate_,
-                                                 *momentum_rate_,
-                                                 energy_rate_};
+        return ShiftingExchange<with_enthalpy(), with_walls>{mobility_,
+                                                             particles_.volume,
+                                                             particles_.density,
+                                                             particles_.velocity,
+                                                             *shift_,
+                                                             particles_.mass,
+                                                             *shifting_speed_,
+                                                             0.5 * parameters_.smoothing_length /
+                                                                 scene_.particle_volume,
+                                                             *balance_,
+                                                             enthalpy_,
+                                                             *shifting_density_rate_,
+                                                             *mass_rate_,
+                                                             *momentum_rate_,
+                                                             energy_rate_};
     };
     enthalpy_ ? sum_with(exchange(std::true_type{})) : sum_with(exchange(std::false_type{}));
 }

@@ -10,8 +10,8 @@ namespace cupel::inline CUPEL_ENGINE
 void FreeSurfaceFlow::find_densities(const Neighbourhood& neighbourhood, const SoundStep& step)
 {
     const bool exchanges = shift_ && step.halfway;
-    const auto sum = [&](const auto&... others) {
-        const auto sum_all = [&](auto with_walls) {
+    const auto sum = [&](auto with_walls) {
+        const auto sum_all = [&](const auto&... others) {
             const ContinuityOfSound<with_walls()> continuity{mobility_,
                                                              particles_.density,
                                                              particles_.velocity,
@@ -22,16 +22,14 @@ void FreeSurfaceFlow::find_densities(const Neighbourhood& neighbourhood, const S
                                                              replaced_rate_};
             for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...);
         };
-        neighbourhood.standing().empty() ? sum_all(std::false_type{}) : sum_all(std::true_type{});
+        exchanges ? sum_with_exchange<with_walls()>(neighbourhood, sum_all) : sum_all();
     };
     extrapolate_velocity(neighbourhood, exchanges);
+    neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});
     if (exchanges) {
-        sum_with_exchange(neighbourhood, sum);
         exchange(neighbourhood, step.whole);
         exchanged_ = true;
     }
-    else
-        sum();
     compress(neighbourhood, {step.time_step, 0.0, exchanges ? step.whole : 0.0});
 }
 

@@ -134,7 +134,7 @@ private:
     std::size_t reserve(std::span<const Listed> near)
     {
         const auto count = static_cast<std::size_t>(neighbours_in(near));
-        if (which_.size() < count + 16) which_.resize(count + 16);
+        if (which_.size() < count + 32) which_.resize(count + 32);
         return count;
     }
     std::vector<Index> which_;

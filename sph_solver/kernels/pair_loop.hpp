@@ -82,6 +82,9 @@ template <std::size_t first, class... Terms, class Visit> void for_each_group(co
     if constexpr (end < sizeof...(Terms)) for_each_group<end, Terms...>(visit);
 }
 
+/// As far as a record from the next cache but one is away; lists of neighbours have places beyond their end.
+constexpr int neighbours_ahead = 16;
+
 /// The sums over some neighbours. All that it calls is compiled into it, so that sums stay in registers while
 /// neighbours pass by. Distances come first, for a few neighbours together, then kernels, then the terms: each loop is
 /// short enough for a processor to have several neighbours under way, what a kernel takes longest for (a root, powers)
@@ -101,8 +104,6 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
     const PlaceLanes here = at;
     // An array for each number of a pair: one that no term asks for is left out. Bare registers, which nothing sets.
     constexpr int most = 32;
-    // As far as a record from the next cache but one is away; which[] has places beyond its end.
-    constexpr int neighbours_ahead = 16;
     Lanes::Registers square[most], kernel[most], gradient_over_r[most];
     Index neighbour[most];
     while (next < end) {
@@ -135,6 +136,38 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
             }
         });
     }
+    return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
+}
+
+/// The same for terms of few sums and a kernel without roots: a few neighbours at a time go from distance to sum in
+/// registers, and one that is beyond the support like any other. That is fewer operations, and nothing long to wait
+/// for.
+template <class... Terms>
+[[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
+few_sums_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& at,
+              const PairMaker<RootFree>& pair_at, const TermsOfCluster<Terms...>& terms)
+{
+    typename TermsOfCluster<Terms...>::Sums sums{};
+    const auto* const records = neighbours.records;
+    const auto pair_of = pair_at; // copies, as above
+    const PlaceLanes here = at;
+    const Index* next = neighbours.which.data();
+    constexpr std::size_t at_a_time = 4;
+    const auto add = [&]<std::size_t... k>(std::index_sequence<k...>)
+    {
+        const Pair pairs[]{[&] {
+            __builtin_prefetch(records + next[neighbours_ahead + k]);
+            const auto& other = records[next[k]];
+            return pair_of(offset_between(here, other.place), other.volume);
+        }()...};
+        (terms.add(records[next[k]].far, pairs[k], sums), ...);
+        next += sizeof...(k);
+    };
+    std::size_t left = neighbours.which.size();
+    for (; left >= at_a_time; left -= at_a_time)
+        add(std::make_index_sequence<at_a_time>{});
+    for (; left > 0; --left)
+        add(std::make_index_sequence<1>{});
     return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
 }
 
@@ -208,6 +241,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             new (made + j) Record(record(j, record.far(j)));
         records = made;
     }
+    constexpr bool few_sums = (sizeof(typename Terms::Sum) + ...) <= 6 * sizeof(Lanes);
     constexpr Index clusters_at_a_time = 16;
     Stretches stretches(count, clusters_at_a_time);
     // A few clusters are done sooner than threads are woken.
@@ -219,14 +253,24 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                 for (Index k = some.begin; k < some.end; ++k) {
                     const Index c = clusters[static_cast<std::size_t>(k)];
                     const Cluster cluster = list.cluster(c);
-                    if (k + 1 < some.end)
-                        TermsOfCluster<Terms...>::ahead(all_terms,
-                                                        list.cluster(clusters[static_cast<std::size_t>(k + 1)]).first);
+                    if (k + 1 < some.end) {
+                        const Index later = list.cluster(clusters[static_cast<std::size_t>(k + 1)]).first;
+                        prefetch(particles.position, later);
+                        TermsOfCluster<Terms...>::ahead(all_terms, later);
+                    }
                     if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
                     const TermsOfCluster<Terms...> of_cluster(all_terms, cluster);
                     const auto found = records ? neighbours.find(list.near(c), records, wanted)
                                                : neighbours.look_up(list.near(c), record, wanted);
-                    auto sums = sum_over(found, places.of_cluster(cluster.first), pair_at, of_cluster);
+                    const PlaceLanes at = places.of_cluster(cluster.first);
+                    auto sums = [&] {
+                        if constexpr (few_sums && requires { pair_at.kernel.without_roots(); })
+                            if (const auto* formula = pair_at.kernel.without_roots())
+                                return few_sums_over(found, at,
+                                                     PairMaker<RootFree>{*formula, pair_at.tiny, pair_at.farthest},
+                                                     of_cluster);
+                        return sum_over(found, at, pair_at, of_cluster);
+                    }();
                     if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);
                     of_cluster.store(cluster, sums);
                 }

@@ -32,6 +32,8 @@ public:
         {
             return is_spline ? spline(square) : root_free(square);
         }
+        /// The kernel without roots where it is that one, else null.
+        const RootFree::Formula<Number>* without_roots() const { return is_spline ? nullptr : &root_free; }
     };
     /// In the precision that pairs are summed in: constants that a loop had to convert would hold it up.
     template <class Number> Formula<Number> in() const

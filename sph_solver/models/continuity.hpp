@@ -57,7 +57,10 @@ template <bool with_walls = true> struct Continuity
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        sum.divergence += dot(i.velocity - broadcast(j.velocity), pair.volume_gradient);
+        const VectorLanes change = i.velocity - broadcast(j.velocity);
+        sum.divergence += change.x * pair.volume_gradient.x;
+        sum.divergence += change.y * pair.volume_gradient.y;
+        sum.divergence += change.z * pair.volume_gradient.z;
         if constexpr (with_walls)
             if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
     }

@@ -12,7 +12,7 @@ namespace cupel::inline CUPEL_ENGINE
 ///
 /// Between liquid particles; walls and solids take no part. ⟨∇ρ⟩ may be that of the places before the last drift: the
 /// term is small, and published schemes keep all of it for a whole Runge-Kutta step.
-struct DensityDiffusion
+template <bool with_walls = true> struct DensityDiffusion
 {
     Mobility mobility;
     const ScalarField& density;
@@ -20,12 +20,13 @@ struct DensityDiffusion
     double diffusivity; ///< δ h c₀, m²/s
     ScalarField& density_rate;
 
-    template <class Scalar> struct DensityGradient
+    template <class Scalar> struct HalfDensityGradient
     {
-        VectorOf<Scalar> density_gradient; ///< ⟨∇ρ⟩, kg/m⁴
+        VectorOf<Scalar> half_density_gradient; ///< ½⟨∇ρ⟩, kg/m⁴
     };
-    using Near = Of<Lanes, quantity::Density, DensityGradient>;
-    using Far = Of<Real, quantity::Liquid, quantity::Density, DensityGradient>;
+    using Near = Of<Lanes, quantity::Density, HalfDensityGradient>;
+    using Far = std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Density, HalfDensityGradient>,
+                                   Of<Real, quantity::Density, HalfDensityGradient>>;
     struct Sum
     {
         Lanes diffusion{};
@@ -33,14 +34,23 @@ struct DensityDiffusion
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
     void ahead(Index first) const { prefetch_all(first, density_gradient, density_rate); }
-    Near near(Index first) const { return {lanes(density, first), lanes(density_gradient, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(density[j]), real(density_gradient[j])}; }
+    Near near(Index first) const { return {lanes(density, first), Lanes(0.5) * lanes(density_gradient, first)}; }
+    Far far(Index j) const
+    {
+        if constexpr (with_walls)
+            return {real(mobility.weight[j]), real(density[j]), real(0.5 * density_gradient[j])};
+        else
+            return {real(density[j]), real(0.5 * density_gradient[j])};
+    }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         // offset = x_i − x_j, so e_ji·∇W = −(dW/dr) and (ρ_j − ρ_i)/r e_ji·∇W = −(ρ_j − ρ_i) gradient_over_r.
         const Lanes jump =
-            j.density - i.density + 0.5 * dot(i.density_gradient + broadcast(j.density_gradient), pair.offset);
-        sum.diffusion -= (j.liquid * pair.volume_gradient_over_r) * jump;
+            j.density - i.density + dot(i.half_density_gradient + broadcast(j.half_density_gradient), pair.offset);
+        if constexpr (with_walls)
+            sum.diffusion -= (j.liquid * pair.volume_gradient_over_r) * jump;
+        else
+            sum.diffusion -= pair.volume_gradient_over_r * jump;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "models/shifting_exchange.hpp"
 #include "models/term.hpp"
 #include "models/velocity_gradient.hpp"
@@ -44,7 +46,7 @@ struct ShiftingVelocity
 
     struct Near
     {
-        Lanes closeness; ///< over the kernel: 1/W(Δx)
+        Lanes closeness; ///< over the kernel: 0.2^¼/W(Δx)
     };
     struct Sum
     {
@@ -56,13 +58,13 @@ struct ShiftingVelocity
     {
         prefetch_all(first, mass, companions, *colour_gradient, surface_delta, shift, inner_speed);
     }
-    Near near(Index) const { return {1.0 / kernel_at_spacing}; }
+    Near near(Index) const { return {std::pow(0.2, 0.25) / kernel_at_spacing}; }
     Nothing far(Index) const { return {}; }
     void add(const Near& i, Nothing, const Pair& pair, Sum& sum) const
     {
         const Lanes closeness = i.closeness * pair.kernel;
         const Lanes square = closeness * closeness;
-        sum.concentration += (1.0 + 0.2 * square * square) * pair.volume_gradient;
+        sum.concentration += (1.0 + square * square) * pair.volume_gradient;
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

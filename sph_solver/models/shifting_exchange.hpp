@@ -23,7 +23,7 @@ template <class Scalar> Scalar exchange_balance(const Scalar& mass, double latti
 /// Each pair's exchange is multiplied by min(b_i, b_j) (exchange_balance): no particle gains or loses more than a fifth
 /// of its mass. What i gains j loses: mass and energy are conserved to round-off between liquid particles; walls and
 /// solids exchange none.
-template <bool with_enthalpy> struct ShiftingExchange
+template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
 {
     Mobility mobility;
     const ScalarField& volume;
@@ -46,7 +46,7 @@ template <bool with_enthalpy> struct ShiftingExchange
     };
     template <class Scalar> struct Speed
     {
-        Scalar speed; ///< U, m/s
+        Scalar evening_speed; ///< h/2V₀ U
     };
     template <class Scalar> struct Carried
     {
@@ -54,8 +54,11 @@ template <bool with_enthalpy> struct ShiftingExchange
     };
     using Near =
         Of<Lanes, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged, Carried>;
-    using Far = Of<Real, quantity::Liquid, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass,
-                   Speed, Exchanged, Carried>;
+    using OfLiquid =
+        Of<Real, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged, Carried>;
+    using OfAny = Of<Real, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged,
+                     Carried, quantity::Liquid>;
+    using Far = std::conditional_t<with_walls, OfAny, OfLiquid>;
     struct Sum
     {
         Lanes density{}, mass{}, energy{};
@@ -74,36 +77,49 @@ template <bool with_enthalpy> struct ShiftingExchange
                 lanes(velocity, first),
                 lanes(shift, first),
                 lanes(mass, first),
-                lanes(speed, first),
+                Lanes(real(evening)) * lanes(speed, first),
                 lanes(balance, first),
                 with_enthalpy ? lanes(*enthalpy, first) : Lanes{}};
     }
     Far far(Index j) const
     {
-        return {real(mobility.weight[j]),
-                real(density[j]),
-                real(velocity[j]),
-                real(shift[j]),
-                real(mass[j]),
-                real(speed[j]),
-                real(balance[j]),
-                with_enthalpy ? real((*enthalpy)[j]) : Real{}};
+        const OfLiquid far{real(density[j]),
+                           real(velocity[j]),
+                           real(shift[j]),
+                           real(mass[j]),
+                           real(evening * speed[j]),
+                           real(balance[j]),
+                           with_enthalpy ? real((*enthalpy)[j]) : Real{}};
+        if constexpr (with_walls)
+            return {far.density,       far.velocity, far.shift,    far.mass,
+                    far.evening_speed, far.balance,  far.enthalpy, real(mobility.weight[j])};
+        else
+            return far;
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const Lanes balanced = minimum(i.balance, Lanes(j.balance));
-        const Lanes other = balanced * dot(broadcast(j.shift), pair.volume_gradient);
-        const Lanes own = balanced * dot(i.shift, pair.volume_gradient);
-        const Lanes gained = j.density * other, lost = i.density * own;
-        sum.density += (gained - i.density * other) + 2.0 * lost;
-        const Lanes rate = Lanes(real(evening)) * (1.0 - balanced) * minimum(i.speed, Lanes(j.speed));
-        const Lanes evened = (rate * (i.mass - j.mass)) * pair.volume_gradient_over_r;
+        const Lanes weight = balanced * pair.volume_gradient_over_r, weight_i = i.density * weight;
+        const Lanes other = dot(broadcast(j.shift), pair.offset);
+        const Lanes gained = (j.density * weight) * other, lost = weight_i * dot(i.shift, pair.offset);
+        sum.density += gained;
+        sum.density -= weight_i * other;
+        sum.density += 2.0 * lost;
+        const Lanes rate = (1.0 - balanced) * minimum(i.evening_speed, Lanes(j.evening_speed));
+        const Lanes evened = (rate * pair.volume_gradient_over_r) * (i.mass - j.mass);
         const Lanes exchanged = gained + lost + evened;
-        sum.mass += j.liquid * exchanged;
-        sum.momentum += (0.5 * exchanged) * (broadcast(j.velocity) - i.velocity);
-        if constexpr (with_enthalpy)
-            sum.energy +=
-                j.liquid * (j.enthalpy * gained + i.enthalpy * lost + (0.5 * evened) * (i.enthalpy + j.enthalpy));
+        sum.momentum += exchanged * (broadcast(j.velocity) - i.velocity);
+        const auto if_liquid = [&](const Lanes& amount) {
+            if constexpr (with_walls)
+                return j.liquid * amount;
+            else
+                return amount;
+        };
+        sum.mass += if_liquid(exchanged);
+        if constexpr (with_enthalpy) {
+            const Lanes half = 0.5 * evened;
+            sum.energy += if_liquid(j.enthalpy * (gained + half) + i.enthalpy * (lost + half));
+        }
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
@@ -112,7 +128,7 @@ template <bool with_enthalpy> struct ShiftingExchange
         store_lanes(density_rate, cluster.first, liquid, sum.density);
         store_lanes(mass_rate, cluster.first, liquid, v * sum.mass);
         if constexpr (with_enthalpy) store_lanes(*energy_rate, cluster.first, liquid, v * sum.energy);
-        store_lanes(momentum_rate, cluster.first, liquid, v * sum.momentum);
+        store_lanes(momentum_rate, cluster.first, liquid, (0.5 * v) * sum.momentum);
     }
 };
 

@@ -72,7 +72,7 @@ template <bool two_phase> struct ColourGradient
 
     struct Near
     {
-        Lanes colour;
+        [[no_unique_address]] std::conditional_t<two_phase, Lanes, Nothing> colour;
     };
     struct Far
     {
@@ -90,11 +90,20 @@ template <bool two_phase> struct ColourGradient
     {
         prefetch_all(first, surface.colour_gradient, surface.smoothed_colour, surface.companions);
     }
-    Near near(Index first) const { return {two_phase ? lanes(surface.colour, first) : Lanes{}}; }
-    Far far(Index j) const { return {real(surface.colour[j])}; }
-    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    Near near([[maybe_unused]] Index first) const
     {
-        sum.gradient -= (j.colour - i.colour) * pair.volume_gradient;
+        if constexpr (two_phase)
+            return {lanes(surface.colour, first)};
+        else
+            return {};
+    }
+    Far far(Index j) const { return {real(surface.colour[j])}; }
+    void add([[maybe_unused]] const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        if constexpr (two_phase)
+            sum.gradient -= (j.colour - i.colour) * pair.volume_gradient;
+        else
+            sum.gradient -= Lanes(j.colour) * pair.volume_gradient;
         sum.colour += j.colour * pair.volume_kernel;
         if constexpr (two_phase) sum.weight += pair.volume_kernel;
         sum.companions += select(counted(pair, smoothing_length), 1.0, 0.0);

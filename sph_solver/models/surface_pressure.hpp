@@ -65,15 +65,14 @@ struct SurfacePressure
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
+        const unsigned liquid = mobility.moving_in(cluster);
+        const VectorLanes slope = correction.of_cluster(cluster.first) * sum.gradient;
+        store_lanes(gradient, cluster.first, liquid, slope);
+        const Lanes zero(0.0);
+        const Lanes change = select(sum.weight < zero, (sum.change + dot(slope, sum.moment)) / sum.weight, zero);
         for (int lane = 0; lane < cluster.count; ++lane) {
             const Index i = cluster.first + lane;
-            if (mobility.weight[i] == 0.0) continue;
-            const Vector slope =
-                correction[i] * Vector{sum.gradient.x[lane], sum.gradient.y[lane], sum.gradient.z[lane]};
-            gradient.set(i, slope);
-            const Vector moment{sum.moment.x[lane], sum.moment.y[lane], sum.moment.z[lane]};
-            mean[i] =
-                value[i] + (sum.weight[lane] < 0.0 ? (sum.change[lane] + dot(slope, moment)) / sum.weight[lane] : 0.0);
+            if (liquid >> lane & 1u) mean[i] = value[i] + change[lane]; // added up from step to step, in double
         }
     }
 };

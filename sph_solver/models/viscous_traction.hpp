@@ -110,7 +110,9 @@ struct ViscousTraction
     {
         const VectorLanes& n = pair.volume_gradient;
         sum.own += Lanes(j.own) * n;
-        sum.others += n.x * broadcast(j.x) + n.y * broadcast(j.y) + n.z * broadcast(j.z);
+        sum.others += n.x * broadcast(j.x); // one by one: each goes into the sum as it is multiplied
+        sum.others += n.y * broadcast(j.y);
+        sum.others += n.z * broadcast(j.z);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
