@@ -7,11 +7,11 @@ namespace cupel::inline CUPEL_ENGINE
 {
 
 /// A cluster's values of a field, in the precision of pair arithmetic.
-inline Lanes lanes(const ScalarField& field, Index first)
+[[gnu::always_inline]] inline Lanes lanes(const ScalarField& field, Index first)
 {
     return load_lanes(field.values.data() + first);
 }
-inline VectorLanes lanes(const VectorField& field, Index first)
+[[gnu::always_inline]] inline VectorLanes lanes(const VectorField& field, Index first)
 {
     return {load_lanes(field.x.data() + first), load_lanes(field.y.data() + first), load_lanes(field.z.data() + first)};
 }

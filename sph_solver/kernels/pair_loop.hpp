@@ -233,7 +233,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             return ~0u;
     };
     const Record* records = nullptr;
-    if (2 * count >= list.cluster_count()) {
+    if (8 * count >= list.cluster_count()) {
         const Index all = particles.count();
         auto* made = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
 #pragma omp parallel for schedule(static)
@@ -241,7 +241,7 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
             new (made + j) Record(record(j, record.far(j)));
         records = made;
     }
-    constexpr bool few_sums = (sizeof(typename Terms::Sum) + ...) <= 6 * sizeof(Lanes);
+    constexpr bool few_sums = (sizeof(typename Terms::Sum) + ...) < 6 * sizeof(Lanes);
     constexpr Index clusters_at_a_time = 16;
     Stretches stretches(count, clusters_at_a_time);
     // A few clusters are done sooner than threads are woken.

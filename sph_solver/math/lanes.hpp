@@ -248,7 +248,7 @@ inline bool may_be_below(const Lanes& a, double limit)
 }
 
 /// Consecutive values; arrays keep 16 values beyond their end readable.
-inline Lanes load_lanes(const double* values)
+[[gnu::always_inline]] inline Lanes load_lanes(const double* values)
 {
     std::array<Real, lane_count> lanes;
     for (int lane = 0; lane < lane_count; ++lane)

@@ -38,7 +38,8 @@ template <bool with_walls> struct ContinuityOfSound
         std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Velocity>, Of<Real, quantity::Velocity>>;
     struct Sum
     {
-        Lanes divergence{}, corrected{}, walls{};
+        Lanes divergence{}, corrected{};
+        [[no_unique_address]] std::conditional_t<with_walls, Lanes, Nothing> walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -71,10 +72,12 @@ template <bool with_walls> struct ContinuityOfSound
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const Lanes partner = i.density * sum.divergence, corrected = i.density * sum.corrected,
-                    walls = i.density * sum.walls;
+        const Lanes partner = i.density * sum.divergence, corrected = i.density * sum.corrected;
         const unsigned liquid = mobility.moving_in(cluster);
-        store_lanes(by_walls, cluster.first, liquid, walls);
+        if constexpr (with_walls)
+            store_lanes(by_walls, cluster.first, liquid, i.density * sum.walls);
+        else
+            store_lanes(by_walls, cluster.first, liquid, Lanes{});
         if (!surface_delta) return store_lanes(density_rate, cluster.first, liquid, partner);
         const Lanes rate = select(lanes(*surface_delta, cluster.first) > 0.0, corrected, partner);
         store_lanes(density_rate, cluster.first, liquid, rate);
@@ -96,7 +99,8 @@ template <bool with_walls> struct PressureForce
         std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Pressure>, Of<Real, quantity::Pressure>>;
     struct Sum
     {
-        VectorLanes push{}, walls{};
+        VectorLanes push{};
+        [[no_unique_address]] std::conditional_t<with_walls, VectorLanes, Nothing> walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
@@ -123,7 +127,10 @@ template <bool with_walls> struct PressureForce
         const unsigned liquid = mobility.moving_in(cluster);
         const Lanes volume_i = lanes(volume, cluster.first);
         store_lanes(pressure_force, cluster.first, liquid, volume_i * sum.push);
-        store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
+        if constexpr (with_walls)
+            store_lanes(wall_force, cluster.first, liquid, volume_i * sum.walls);
+        else
+            store_lanes(wall_force, cluster.first, liquid, VectorLanes{});
     }
 };
 
