@@ -46,4 +46,55 @@ std::vector<std::array<double, 3>> disc_on_rings(const Body& disc, double spacin
     return places;
 }
 
+namespace
+{
+
+/// A point of the unit sphere for one of a cube's upper face, x and y from −1 to 1: areas keep their share. The face
+/// goes to a plane whose Lambert projection is its part of the sphere.
+std::array<double, 3> on_upper_cap(double x, double y)
+{
+    if (std::abs(y) > std::abs(x)) {
+        const auto [a, b, c] = on_upper_cap(y, x);
+        return {b, a, c};
+    }
+    if (x == 0.0) return {0.0, 0.0, 1.0};
+    const double angle = y * std::numbers::pi / (12.0 * x), root = std::sqrt(2.0);
+    const double scale = std::sqrt(root) * x / std::sqrt(root - std::cos(angle));
+    const double across = scale * (root * std::cos(angle) - 1.0), along = scale * root * std::sin(angle);
+    const double square = across * across + along * along, to_sphere = std::sqrt(1.0 - square / 4.0);
+    return {to_sphere * across, to_sphere * along, 1.0 - square / 2.0};
+}
+
+} // namespace
+
+std::vector<std::array<double, 3>> ball_on_shells(const Body& ball, double spacing)
+{
+    const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(ball.radius, 3);
+    const auto count = std::max(1L, std::lround(std::cbrt(volume) / spacing));
+    std::vector<std::array<double, 3>> places;
+    for (long i = 0; i < count; ++i)
+        for (long j = 0; j < count; ++j)
+            for (long k = 0; k < count; ++k) {
+                const auto along = [&](long index) {
+                    return (2.0 * static_cast<double>(index) + 1.0) / static_cast<double>(count) - 1.0;
+                };
+                const std::array<double, 3> p{along(i), along(j), along(k)};
+                std::size_t face = 0;
+                for (std::size_t axis = 1; axis < 3; ++axis)
+                    if (std::abs(p[axis]) > std::abs(p[face])) face = axis;
+                const double depth = std::abs(p[face]);
+                std::array<double, 3> place = ball.center;
+                if (depth > 0.0) {
+                    const std::size_t one = (face + 1) % 3, other = (face + 2) % 3;
+                    const auto cap = on_upper_cap(p[one] / depth, p[other] / depth);
+                    const double radius = ball.radius * depth;
+                    place[one] += radius * cap[0];
+                    place[other] += radius * cap[1];
+                    place[face] += std::copysign(radius, p[face]) * cap[2];
+                }
+                places.push_back(place);
+            }
+    return places;
+}
+
 } // namespace cupel

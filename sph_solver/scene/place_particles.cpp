@@ -195,8 +195,8 @@ void disturb(const Case& definition, std::vector<Placement>& placements)
 
 /// A ball that is cut from a lattice holds too much or too little: at 20 spacings a diameter 0.6 % too much, which
 /// makes it oscillate 0.4 % too slowly. A drop with nothing around it is therefore swollen or shrunk about its centre
-/// until its particles hold its volume; one in two dimensions that touches no wall is placed on rings instead. Returns
-/// the volume of each.
+/// until its particles hold its volume; one that top and bottom leave whole is placed on rings or shells instead, so
+/// that its surface has no steps. Returns the volume of each.
 double place_free_drop(const Case& definition, bool two_phase, double lattice_volume,
                        std::vector<Placement>& placements)
 {
@@ -205,10 +205,12 @@ double place_free_drop(const Case& definition, bool two_phase, double lattice_vo
         return lattice_volume;
     const auto volume = volume_in_domain(body, definition.domain, definition.dimensions);
     if (!volume) return lattice_volume;
-    if (definition.dimensions == 2 && whole_in_domain(body, definition.domain)) {
+    if (whole_in_domain(body, definition.domain)) {
         Placement placement = placements.front();
         placements.clear();
-        for (const auto& place : disc_on_rings(body, definition.spacing)) {
+        for (const auto& place : definition.dimensions == 2 ? disc_on_rings(body, definition.spacing)
+                                                            : ball_on_shells(body, definition.spacing))
+        {
             placement.position = to_vector(place);
             placements.push_back(placement);
         }

@@ -86,8 +86,8 @@ void advance(Simulation& simulation, int steps)
         simulation.step(1.0);
 }
 
-/// Particles of the turned scene, by identity in the first: those whose lattice cell is the turned one. A disc in
-/// nothing stands on rings that do not turn with it; its particles are all alike, and the next will do.
+/// Particles of the turned scene, by identity in the first: those whose lattice cell is the turned one. A drop in
+/// nothing stands on rings or shells, not on the lattice; its particles are all alike, and the next will do.
 std::vector<Index> partners(const Scene& scene, const Scene& turned, const Turn& turn)
 {
     const auto cell = [](const Vector& p, double spacing) {
@@ -100,8 +100,10 @@ std::vector<Index> partners(const Scene& scene, const Scene& turned, const Turn&
     std::vector<Index> result;
     Index next = 0;
     for (Index i = 0; i < scene.particles->count(); ++i) {
+        const bool ball =
+            scene.definition.bodies.size() == 1 && scene.definition.bodies.front().shape == BodyShape::sphere;
         const bool on_rings =
-            !scene.two_phase && scene.dimensions == 2 && scene.particles->kind[std::size_t(i)] == Kind::fluid;
+            !scene.two_phase && (scene.dimensions == 2 || ball) && scene.particles->kind[std::size_t(i)] == Kind::fluid;
         result.push_back(on_rings ? next++ : found.at(cell(turn(scene.particles->position[i]), scene.spacing)));
     }
     return result;

@@ -80,8 +80,11 @@ TEST(Placement, DropHoldsItsVolume)
         double square = 0.0;
         for (Index i = 0; i < ball.particles->count(); ++i)
             square += dot(ball.particles->position[i], ball.particles->position[i]) / ball.particles->count();
-        // On n rings half a spacing from each other's middle it is less by 1/(8 n²), and by what rounds their numbers.
-        EXPECT_NEAR(square, dimensions / (dimensions + 2.0) - (dimensions == 2 ? 1.0 / 800.0 : 0.0), 2e-3);
+        // On n rings half a spacing from each other's middle it is less by 1/(8 n²), and by what rounds their numbers;
+        // on the n/2 shells of a cube's lattice of n³ points by 5/(3 n²).
+        EXPECT_NEAR(square,
+                    dimensions / (dimensions + 2.0) - (dimensions == 2 ? 1.0 / 800.0 : 5.0 / (3.0 * 16.0 * 16.0)),
+                    2e-3);
         // Half of it, on the floor of its domain.
         definition.domain.lower[2] = 0.0;
         EXPECT_NEAR(volume_of(place_particles(definition)), 0.5 * whole, 1e-12 * whole);
@@ -109,6 +112,52 @@ TEST(Placement, DiscInNothingStandsOnRingsASpacingApart)
     EXPECT_GT(std::ranges::count_if(std::views::iota(Index{0}, half.particles->count()),
                                     [&](Index i) { return std::abs(half.particles->position[i].z - first) < 1e-9; }),
               n / 2);
+}
+
+TEST(Placement, BallInNothingStandsOnShellsAsCubesHaveThem)
+{
+    const int n = 16; // of a diameter of 20 spacings
+    const Scene scene = place_particles(drop(3, 20, std::nullopt));
+    ASSERT_EQ(scene.particles->count(), n * n * n);
+    const double spacing = std::cbrt(scene.particle_volume);
+    std::vector<int> count(n / 2);
+    Symmetric3<double> moment{};
+    for (Index i = 0; i < scene.particles->count(); ++i) {
+        const Vector p = scene.particles->position[i];
+        const double shell = 0.5 * (norm(p) * n - 1.0);
+        EXPECT_NEAR(shell, std::round(shell), 1e-9);
+        ++count[static_cast<std::size_t>(std::lround(shell))];
+        moment.subtract_product(p, p);
+        double nearest = 1.0;
+        for (Index j = 0; j < scene.particles->count(); ++j)
+            if (j != i) nearest = std::min(nearest, norm(p - scene.particles->position[j]));
+        // Closest are the eight about the centre, at the corners of a cube in a sphere of the radius R/n.
+        EXPECT_GT(nearest, (1.0 - 1e-9) * 2.0 / std::sqrt(3.0) / n);
+        EXPECT_LT(nearest, 1.05 * spacing);
+    }
+    for (int k = 0; k < n / 2; ++k) // what a cube of 2 k + 2 has more than one of 2 k
+        EXPECT_EQ(count[static_cast<std::size_t>(k)], 8 * ((k + 1) * (k + 1) * (k + 1) - k * k * k));
+    // No direction is another one, and none is left out: n² points on each face keep areas.
+    EXPECT_NEAR(moment.xy, 0.0, 1e-9);
+    EXPECT_NEAR(moment.xx, moment.zz, 1e-9);
+    // A quarter of a spacing more or less, and one lies elsewhere: half a drop keeps the lattice.
+    Case definition = drop(3, 20, std::nullopt);
+    definition.domain.lower[2] = 0.0;
+    EXPECT_NE(place_particles(definition).particles->count(), n * n * n / 2);
+}
+
+TEST(Placement, BallOnShellsKeepsVolumes)
+{
+    // A cap of height h holds π h² (R − h/3), however it lies: on a face, on an edge and on a corner of the cube.
+    const Scene scene = place_particles(drop(3, 60, std::nullopt));
+    for (const Vector direction :
+         {Vector{0, 0, 1}, Vector{0.8, 0, 0.6}, Vector{1 / std::sqrt(3), 1 / std::sqrt(3), 1 / std::sqrt(3)}})
+        for (const double height : {0.4, 0.7, 1.0}) {
+            double volume = 0.0;
+            for (Index i = 0; i < scene.particles->count(); ++i)
+                if (dot(scene.particles->position[i], direction) > 1.0 - height) volume += scene.particle_volume;
+            EXPECT_NEAR(volume, std::numbers::pi * height * height * (1.0 - height / 3.0), 0.03 * volume);
+        }
 }
 
 TEST(Placement, WaveHasItsAmplitudeAtTheSurfaceAndNoneAtTheBottom)
