@@ -25,8 +25,9 @@ std::vector<std::array<double, 3>> disc_on_rings(const Body& disc, double spacin
 /// Places of a ball's particles, m: a cube's lattice of n³ points, n = ∛(V/Δx³) rounded, each of them taken to the ball
 /// by a map that keeps volumes. Cubes about the centre become spheres, by the map of Roşca & Plonka (2011, "Uniform
 /// spherical grids via equal area projection from the cube to the sphere") that keeps areas, so that the outermost
-/// particles all lie as deep below the surface, (1/n) R, and rows of one shell go on in the next. A ball cut from a
-/// lattice has a surface of steps; shells of Fibonacci points are out of line with each other, which is worse.
+/// particles all lie as deep below the surface, (1/n) R, and rows of one shell go on in the next. Shells are 1.24 of a
+/// particle's size ∛(V/n³) apart, particles on them 0.90. A ball cut from a lattice has a surface of steps; shells of
+/// Fibonacci points are out of line with each other, which is worse.
 std::vector<std::array<double, 3>> ball_on_shells(const Body& ball, double spacing);
 
 } // namespace cupel

@@ -201,11 +201,11 @@ def long_run(tmp_path_factory):
 
 
 def test_memory_is_flat_over_a_hundred_thousand_steps(long_run):
-    """From 10 % of the steps, with a checkpoint among them, to the end it rises by less than 256 KiB: 3 bytes a step."""
+    """From 10 % of the steps, and a checkpoint of as late, to the end it rises by less than 256 KiB: 3 bytes a step."""
     _, folder, samples = long_run
     steps = record(folder)["cost"]["steps"]
     assert steps > 100_000
-    settled = [resident for step, resident, checkpoint in samples if step >= 0.1 * steps and checkpoint > 0]
+    settled = [resident for step, resident, checkpoint in samples if min(step, checkpoint) >= 0.1 * steps]
     assert len(settled) >= 4, "the run was over too soon to be watched"
     assert max(settled) - settled[0] < 256 * 1024, samples
 
