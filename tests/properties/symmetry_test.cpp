@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/free_drop.hpp"
 #include "symmetry_scenes.hpp"
 
 namespace cupel
@@ -100,10 +101,11 @@ std::vector<Index> partners(const Scene& scene, const Scene& turned, const Turn&
     std::vector<Index> result;
     Index next = 0;
     for (Index i = 0; i < scene.particles->count(); ++i) {
-        const bool ball =
-            scene.definition.bodies.size() == 1 && scene.definition.bodies.front().shape == BodyShape::sphere;
-        const bool on_rings =
-            !scene.two_phase && (scene.dimensions == 2 || ball) && scene.particles->kind[std::size_t(i)] == Kind::fluid;
+        const Body& body = scene.definition.bodies.front();
+        const bool whole_ball = scene.definition.bodies.size() == 1 && body.shape == BodyShape::sphere &&
+                                whole_in_domain(body, scene.definition.domain);
+        const bool on_rings = !scene.two_phase && (scene.dimensions == 2 || whole_ball) &&
+                              scene.particles->kind[std::size_t(i)] == Kind::fluid;
         result.push_back(on_rings ? next++ : found.at(cell(turn(scene.particles->position[i]), scene.spacing)));
     }
     return result;

@@ -137,10 +137,10 @@ TEST(Placement, BallInNothingStandsOnShellsAsCubesHaveThem)
     }
     for (int k = 0; k < n / 2; ++k) // what a cube of 2 k + 2 has more than one of 2 k
         EXPECT_EQ(count[static_cast<std::size_t>(k)], 8 * ((k + 1) * (k + 1) * (k + 1) - k * k * k));
-    // No direction is another one, and none is left out: n² points on each face keep areas.
+    // The cube's axes are alike.
     EXPECT_NEAR(moment.xy, 0.0, 1e-9);
     EXPECT_NEAR(moment.xx, moment.zz, 1e-9);
-    // A quarter of a spacing more or less, and one lies elsewhere: half a drop keeps the lattice.
+    // Half a drop, on the floor of its domain, keeps the lattice.
     Case definition = drop(3, 20, std::nullopt);
     definition.domain.lower[2] = 0.0;
     EXPECT_NE(place_particles(definition).particles->count(), n * n * n / 2);
