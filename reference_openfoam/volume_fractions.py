@@ -102,6 +102,8 @@ def _sampled(case: ResolvedCase, grid: Grid, bodies: list, near: dict, cells: np
         for sphere, touched in zip(spheres, near[id(spheres)]):
             rows = row_of[touched]
             rows = rows[rows >= 0]
+            if not rows.size:       # a sphere whose cells are all among others'
+                continue
             _lay_over(inside, rows, _sphere_samples(body, sphere, samples[rows], widths[rows], grid.planar), fills)
     return inside.mean(axis=1)
 

@@ -64,6 +64,18 @@ def test_a_wave_of_a_twentieth_of_a_cell_is_there_in_every_column(tmp_path):
     assert np.abs(heights - exact).max() < 1e-3*0.0025
 
 
+def test_cells_in_many_pieces_have_the_same_share_of_bodies_that_lie_in_some_of_them(tmp_path, monkeypatch):
+    grains = [{"shape": "sphere", "material": "oil", "state": "liquid", "center": [x, 2.0, x], "radius": 0.4} for x in (1.0, 3.0)]
+    case = read(tmp_path, dimensions=3, spacing=0.2, physics=["flow", "surface_tension"], materials=LIQUIDS, surrounding=WATER,
+                domain={"lower": [0.0, 0.0, 0.0], "upper": [4.0, 4.0, 4.0], "boundaries": small_cases.boundaries()},
+                bodies=grains, time={"end": 1.0, "output_interval": 1.0})
+    grid = make_grid(case, top_of_bodies(case))
+    whole = volume_fractions(case, grid)
+    assert (whole*grid.cell_volumes()).sum() == pytest.approx(2*4/3*np.pi*0.4**3, rel=5e-3)
+    monkeypatch.setattr("reference_openfoam.volume_fractions.CHUNK", 16)
+    assert volume_fractions(case, grid) == pytest.approx(whole, abs=1e-14)
+
+
 def test_start_velocity_and_moving_wall_are_written(tmp_path):
     sides = small_cases.boundaries(z_max={"kind": "wall", "slip": "no_slip", "velocity": [3.0, 0.0, 0.0], "temperature": None})
     box = {"shape": "box", "material": "oil", "state": "liquid", "lower": [0.0, 0.0, 0.0], "upper": [1.0, 0.0, 1.0]}
