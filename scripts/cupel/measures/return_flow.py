@@ -34,7 +34,6 @@ import numpy as np
 
 from ..exact import return_flow as exact
 from .elements import Elements
-from .elements import Elements
 from .registry import MeasureError, Reading, measure_of_snapshot
 from .snapshot import Snapshot, look_up, primary_bodies, primary_material
 
