@@ -198,7 +198,13 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                 }
                 else {
                     const Vector continued = normal + normal_of(seen);
-                    depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
+                    if (two_phase_) {
+                        const Vector at_plane = wall.wall_depth[i] * inward;
+                        const double distance = dot(foot - at_plane, continued) / std::max(dot(along, continued), 1e-9);
+                        std::tie(normal, depth) = on_circle(at_plane + distance * along, normal, slope);
+                    }
+                    else
+                        depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
                 }
                 if (wall_pull_ && i == top)
                     wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);

@@ -12,31 +12,30 @@ namespace cupel::inline CUPEL_ENGINE
 /// Wetting of a flat wall: what the wall's particles show of the surface that meets it, and what the surface's angle
 /// is.
 ///
-/// A wall particle near the contact line carries the normal that Young's equation asks for,
+/// A wall particle near the contact line shows the interface as it goes on beyond the wall's plane: its normal n̂_w, the
+/// signed depth s below it, and with that the colour c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in
+/// the smoothing of normals and in the curvature fit like any particle of the band, and the liquid's own normals are
+/// never overwritten. In the wall's plane the normal is what Young's equation asks for,
 ///
-///   n̂_w = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
-///   normal,
+///   n̂_Y = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
+///   normal.
 ///
-/// the signed depth s below the interface that meets the wall at this angle, and with it the colour
-/// c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in the smoothing of normals and in the curvature fit
-/// like any particle of the band, and the liquid's own normals are never overwritten. With means ⟨ ⟩ over the band near
-/// the wall, of weight W_wj δ_j,
+/// Means ⟨ ⟩ are over the band near the wall, of weight W_wj δ_j; f = ⟨x_j + s_j n̂_j⟩ is a place of the interface, and
+/// m̂ the mean of n̂_Y and the liquid's mean normal: on a circle the plane through f across m̂ meets the wall's where the
+/// circle does.
 ///
-///   s = ⟨x_j + s_j n̂_j − x_w⟩·m̂      [m]
+///   Two liquids: from there, with n̂_Y, the circle of the liquid's curvature κ_m. The wall's layers all with n̂_Y would
+///   say that curvature ends at the wall, and the drop spreads: by 1.3° at 90°, whatever the resolution.
+///   A free surface up to 90°:   n̂_w = n̂_Y,   s = (f − x_w)·m̂      [m]. A drop of 45° stirs its edge else.
+///   A free surface that overhangs (θ_Y above 90°): the normals beside a wall are in part what the wall's colours make
+///   them; continued by what they say, the interface in the wall follows what it has brought about itself (of a drop of
+///   120° it stood at 135° in the wall, and normals beside it at 138°). There it is the circle through f with κ_m and
+///   with the normal that Young's angle in the wall's plane gives it,   n̂·N = cos θ_Y + κ_m ⟨d_j⟩.   With n̂_Y in all
+///   layers a drop of 150° spreads by 4.7° with 40 spacings a diameter.
 ///
-/// m̂ is the mean of n̂_w and the mean normal of the liquid: exact on a circle. At angles up to 90° that is steadier than
-/// what follows (a drop of 45° stirs its edge else). Under a free surface that overhangs (θ_Y above 90°) the normals
-/// beside a wall are in part what the wall's colours make them: continued by what they say, the interface in the wall
-/// follows what it has brought about itself (of a drop of 120° it stood at 135° in the wall, and normals beside it at
-/// 138°). There n̂_w and s are those of a circle: through the mean place of the band's surface, with the curvature κ_m
-/// of the liquid beside it, and with the normal there that Young's angle in the wall's plane gives it,
+/// Where a circle closes below the wall, so does what the wall shows.
 ///
-///   n̂·N = cos θ_Y + κ_m ⟨d_j⟩
-///
-/// Three layers with Young's normal alone would say that curvature ends at the wall, and the drop spreads: by 4.7° at
-/// 150° with 40 spacings a diameter. Where the circle closes below the wall, so does what the wall shows.
-///
-/// and the angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
+/// The angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
 /// curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
 ///
 ///   cos θ = ⟨n̂_j·N⟩ − κ_m ⟨d_j⟩

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "simulated.hpp"
@@ -54,6 +55,41 @@ TEST_P(Wetting, WallsContinueAnOverhangAsItsCircle)
     // The lattice shows the edge to a part of a spacing, and each column of the wall sees it through its own kernel.
     EXPECT_LT(std::abs(mean / seen), 0.25);
     EXPECT_LT(std::sqrt(square / seen), 0.35);
+}
+
+class TwoPhaseWetting : public testing::TestWithParam<double>
+{};
+INSTANTIATE_TEST_SUITE_P(Angles, TwoPhaseWetting, testing::Values(60.0, 75.0, 90.0, 105.0));
+
+TEST_P(TwoPhaseWetting, WallsContinueAnInterfaceAsItsCircle)
+{
+    // The same between two liquids, by the normals, each with its weight: were they Young's in all three layers, they
+    // would be off by what the circle turns below the wall.
+    const double angle = GetParam() * std::numbers::pi / 180.0, radius = 0.5;
+    Case definition = drop_on_a_wall(angle);
+    definition.surrounding.emplace();
+    definition.surrounding->material = "outside";
+    definition.surrounding->resolved = true;
+    definition.materials["outside"] = definition.materials.at("liquid");
+    definition.materials.at("outside").name = "outside";
+    const Vector center{1.0, 0.0, -radius * std::cos(angle)};
+    definition.bodies.front().center = {center.x, center.y, center.z};
+    Simulation simulation = simulate(definition, 1);
+    const Particles& particles = simulation.particles();
+    const ScalarField& delta = particles.scalar("surface_delta");
+    const VectorField& normal = particles.vector("surface_normal");
+    double weight = 0.0, off = 0.0, flat = 0.0; // angles squared
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector p = particles.position[i];
+        if (particles.kind[static_cast<std::size_t>(i)] != Kind::wall || p.z > 0.0 || !(delta[i] > 0.0)) continue;
+        const Vector radial = p - center;
+        const double exact = std::atan2(radial.z, std::abs(radial.x)), side = p.x > center.x ? 1.0 : -1.0;
+        weight += delta[i];
+        off += delta[i] * std::pow(std::atan2(normal[i].z, side * normal[i].x) - exact, 2);
+        flat += delta[i] * std::pow(0.5 * std::numbers::pi - angle - exact, 2);
+    }
+    ASSERT_GT(weight, 0.0);
+    EXPECT_LT(std::sqrt(off / weight), 0.4 * std::sqrt(flat / weight));
 }
 
 TEST(ContactPull, NothingPullsUnderAFreeSurfaceThatOverhangs)
