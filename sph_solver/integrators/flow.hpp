@@ -92,16 +92,27 @@ public:
         const Vector impulsive = acceleration_[i] - acceleration_by_sound(i);
         return by_surface_ ? impulsive - (1.0 / particles_.mass[i]) * (*by_surface_)[i] : impulsive;
     }
-    /// What a kick adds to the velocity of particle i, m/s.
-    Vector kick(Index i, const KickTimes& times) const
+    /// What a kick adds to the velocity of a particle, m/s, all of it and by the surface's forces as far as these share
+    /// the time of sound and not of all else: nothing where both are the same. It is the force that is held, not the
+    /// acceleration, since shifting exchanges mass meanwhile.
+    struct Kick
     {
-        Vector change = (times.sound - times.slow) * acceleration_by_sound(i);
-        if (times.slow > 0.0) change += times.slow * acceleration_[i];
-        if (by_surface_) change += kick_by_surface(i, times);
-        return change;
+        Vector change, by_surface;
+    };
+    Kick kick(Index i, const KickTimes& times) const
+    {
+        const double per_mass = 1.0 / particles_.mass[i];
+        Kick kick{(times.sound - times.slow) * (per_mass * pressure_force_[i] + gravity_), {}};
+        if (times.slow > 0.0) kick.change += times.slow * acceleration_[i];
+        if (!by_surface_) return kick;
+        Vector impulse = (times.surface - times.slow) * (*by_surface_)[i];
+        if (times.surface_before != 0.0) impulse += times.surface_before * (*by_surface_before_)[i];
+        kick.by_surface = per_mass * impulse;
+        kick.change += kick.by_surface;
+        return kick;
     }
     /// Work of a kick on particle i, whose velocity is `mean` on the average of it, by cause, J.
-    MechanicalWork work(Index i, const Vector& mean_velocity, const KickTimes& times) const;
+    MechanicalWork work(Index i, const Kick& kick, const Vector& mean_velocity, const KickTimes& times) const;
     /// e of a particle, J/kg.
     virtual double elastic_energy(Index i) const;
     /// ½ m v² + m e of all that moves, J.
@@ -129,14 +140,6 @@ protected:
     void correct_temperature_gradient(const Neighbourhood& neighbourhood, const CorrectionMatrix& correction);
     /// Registers what is held of the surface's forces while sound is followed.
     void hold_surface_forces();
-    /// What shares the time of sound and not of all else: nothing where both are the same. It is the force that is
-    /// held, not the acceleration, since shifting exchanges mass meanwhile.
-    Vector kick_by_surface(Index i, const KickTimes& times) const
-    {
-        const Vector impulse =
-            (times.surface - times.slow) * (*by_surface_)[i] + times.surface_before * (*by_surface_before_)[i];
-        return (1.0 / particles_.mass[i]) * impulse;
-    }
     /// Pressure and viscosity, and the artificial forces, N.
     Vector sum_of_pair_forces(Index i) const;
     /// force_ ← that.
@@ -196,13 +199,13 @@ private:
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it
 };
 
-inline MechanicalWork Flow::work(Index i, const Vector& mean_velocity, const KickTimes& times) const
+inline MechanicalWork Flow::work(Index i, const Kick& kick, const Vector& mean_velocity, const KickTimes& times) const
 {
     MechanicalWork work;
     work.pressure = dot(pressure_force_[i], times.sound * mean_velocity);
     if (wall_force_) work.imbalance = dot((*wall_force_)[i], times.sound * mean_velocity);
     work.gravity = particles_.mass[i] * dot(gravity_, times.sound * mean_velocity);
-    if (by_surface_) work.surface = particles_.mass[i] * dot(kick_by_surface(i, times), mean_velocity);
+    if (by_surface_) work.surface = particles_.mass[i] * dot(kick.by_surface, mean_velocity);
     if (times.slow == 0.0) return work;
     const Vector path = times.slow * mean_velocity;
     work.viscosity = dot(viscous_force_[i], path);

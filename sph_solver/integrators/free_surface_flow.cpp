@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "models/closed_surface_tension.hpp"
-#include "models/continuity.hpp"
 #include "models/density_diffusion.hpp"
 #include "models/momentum.hpp"
 #include "models/packing.hpp"
@@ -38,6 +37,7 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
     if (temperature_gradient_) {
         stress_share_ = &particles_.add_scalar({"surface_stress_share", "1/m"});
         stress_direction_ = &particles_.add_vector({"surface_stress_direction", "1"});
+        kernel_gradient_sum_ = &particles_.add_vector({"kernel_gradient_sum", "1/m"});
     }
     if (scene.definition.numerics.density_diffusion > 0.0) {
         density_gradient_ = &particles_.add_vector({"density_gradient", "kg/m4"});
@@ -109,104 +109,47 @@ void FreeSurfaceFlow::reset(Index place)
 void FreeSurfaceFlow::find_rates(const Neighbourhood& neighbourhood)
 {
     const GradientCorrection correction{mobility_, scene_.dimensions, correction_};
-    const VelocityGradient gradient{mobility_, particles_.velocity, correction_, velocity_gradient_};
+    const VelocityGradient gradient{mobility_,          particles_.velocity, correction_,
+                                    velocity_gradient_, &density_rate_,      &particles_.density};
     const auto sum_all = [&](const auto&... others) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), correction, gradient,
                       others...);
     };
-    const auto sum_with_continuity = [&](auto with_walls, const auto&... others) {
-        // It reads what the gradient has just stored for the same cluster.
-        const Continuity<with_walls()> continuity{mobility_,
-                                                  particles_.density,
-                                                  particles_.velocity,
-                                                  velocity_gradient_,
-                                                  carried_load_ ? &surface_->fields().delta : nullptr,
-                                                  density_rate_,
-                                                  density_rate_by_walls_,
-                                                  replaced_rate_};
-        if (!density_gradient_) return sum_all(continuity, others...);
+    const auto sum_with_diffusion = [&](auto with_walls, const auto&... others) {
+        if (!density_gradient_) return sum_all(others...);
         sum_all(
-            continuity,
             DensityDiffusion<with_walls()>{mobility_, particles_.density, *density_gradient_,
                                            scene_.definition.numerics.density_diffusion * parameters_.smoothing_length *
                                                parameters_.equation_of_state.sound_speed,
                                            *diffusion_rate_},
             others...);
     };
+    const auto sum_with_walls = [&](auto with_walls, const auto&... others) {
+        if constexpr (with_walls())
+            sum_with_diffusion(with_walls, continuity_by_walls(), others...);
+        else
+            sum_with_diffusion(with_walls, others...);
+    };
     const auto sum = [&](auto with_walls) {
-        if (!surface_) return sum_with_continuity(with_walls);
-        const auto colour = surface_->colour_gradient<false>();
-        if (!shift_ || exchanged_) return sum_with_continuity(with_walls, colour);
-        sum_with_exchange<with_walls()>(
-            neighbourhood, [&](const auto& exchange) { sum_with_continuity(with_walls, colour, exchange); });
+        if (!surface_) return sum_with_walls(with_walls);
+        const auto colour = surface_->colour_gradient<false, with_walls()>();
+        if (!shift_ || exchanged_) return sum_with_walls(with_walls, colour);
+        sum_with_exchange<with_walls()>(neighbourhood,
+                                        [&](const auto& exchange) { sum_with_walls(with_walls, colour, exchange); });
     };
     neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});
+    if (carried_load_) take_trace_in_band(neighbourhood);
 }
 
-/// Mass goes from particle to particle with its momentum and its enthalpy.
-void FreeSurfaceFlow::exchange(const Neighbourhood& neighbourhood, double time_step)
+/// The rate of ContinuityOfBand, from the gradient of velocity.
+void FreeSurfaceFlow::take_trace_in_band(const Neighbourhood& neighbourhood)
 {
-    const auto& moving = neighbourhood.moving_particles();
-    books_.shifting += ordered_sum(static_cast<Index>(moving.size()), [&](Index m) {
-        const Index i = moving[static_cast<std::size_t>(m)];
-        const double gain = time_step * (*mass_rate_)[i], mass = particles_.mass[i] + gain;
-        if (enthalpy_) (*enthalpy_)[i] = (particles_.mass[i] * (*enthalpy_)[i] + time_step * (*energy_rate_)[i]) / mass;
-        const Vector before = particles_.velocity[i], velocity = before + (time_step / mass) * (*momentum_rate_)[i];
-        const double kinetic = 0.5 * (mass * dot(velocity, velocity) - particles_.mass[i] * dot(before, before));
-        particles_.mass[i] = mass;
-        particles_.velocity.set(i, velocity);
-        return kinetic + gain * elastic_energy(i);
+    neighbourhood.for_each_moving([&](Index i) {
+        if (!(surface_->fields().delta[i] > 0.0)) return;
+        const double rate = -particles_.density[i] * velocity_gradient_.trace(i);
+        (*replaced_rate_)[i] = rate - density_rate_[i];
+        density_rate_[i] = rate;
     });
-}
-
-/// Densities from their rates, each for its time, and with them volumes and pressures.
-MechanicalWork FreeSurfaceFlow::compress(Index i, const CompressionTimes& times)
-{
-    // What is caught between solids that melt and freeze around it is cushioned: its pressure stays below 0.05 ρ c₀²,
-    // above any that capillarity or recoil can raise, and does not throw off what is near. The history shows how far
-    // densities went.
-    constexpr double limit = 0.05;
-    const auto energy = [&] {
-        return parameters_.equation_of_state.elastic_energy(particles_.density[i], rest_density_);
-    };
-    // de/dρ
-    const auto stiffness = [&](double density) {
-        return parameters_.equation_of_state.pressure(density, rest_density_) / (density * density);
-    };
-    const double before = energy(), density_before = particles_.density[i];
-    const double diffused = diffusion_rate_ ? times.diffusion * (*diffusion_rate_)[i] : 0.0;
-    const double shifted =
-        shifting_density_rate_ ? times.shifting * ((*shifting_density_rate_)[i] + (*packing_rate_)[i]) : 0.0;
-    const double changes = times.flow * density_rate_[i] + diffused + shifted;
-    particles_.density[i] += changes;
-    const double compressed = energy(), unlimited = particles_.density[i];
-    // Spray flies freely: what two or three particles that collide make of the continuity equation is no density.
-    if (surface_ && surface_->is_spray(i)) particles_.density[i] = rest_density_;
-    particles_.density[i] =
-        std::clamp(particles_.density[i], (1.0 - limit) * rest_density_, (1.0 + limit) * rest_density_);
-    particles_.volume[i] = particles_.mass[i] / particles_.density[i];
-    (*excess_pressure_)[i] = parameters_.equation_of_state.pressure(particles_.density[i], rest_density_);
-
-    MechanicalWork work;
-    // What a change of density is worth. Where it was limited, forces have never seen what is cut off: it is worth what
-    // the pressures at both ends of the step say, and the limiter answers for the rest.
-    double worth = changes != 0.0 ? particles_.mass[i] * (compressed - before) / changes : 0.0;
-    const bool limited = particles_.density[i] != unlimited;
-    if (limited) worth = 0.5 * particles_.mass[i] * (stiffness(density_before) + stiffness(particles_.density[i]));
-    const double replaced = replaced_rate_ ? (*replaced_rate_)[i] : 0.0;
-    work.compression = worth * times.flow * (density_rate_[i] - replaced);
-    work.imbalance = worth * times.flow * (replaced + density_rate_by_walls_[i]);
-    work.density_diffusion = worth * diffused;
-    work.shifting = worth * shifted;
-    work.limiter = particles_.mass[i] * ((limited ? energy() : compressed) - before) - worth * changes;
-    return work;
-}
-
-void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const CompressionTimes& times)
-{
-    const auto& moving = neighbourhood.moving_particles();
-    books_ += ordered_sum(static_cast<Index>(moving.size()),
-                          [&](Index m) { return compress(moving[static_cast<std::size_t>(m)], times); });
 }
 
 /// Forces between particles, and in the same pass the shifting velocity of the next drift, the gradient of density by
@@ -216,17 +159,18 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
 {
     const double viscosity = scene_.materials.front().viscosity.value();
     // What follows momentum adds to what it has just stored for the same cluster.
-    const ViscousTraction traction{mobility_, particles_.volume, velocity_gradient_, viscosity,
-                                   nullptr,   &correction_,      viscous_force_};
     start_artificial_force(neighbourhood);
     const auto sum = [&](auto with_walls, const auto&... others) {
+        const ViscousTraction<with_walls()> traction{
+            mobility_, particles_.volume, velocity_gradient_, viscosity,
+            nullptr,   &correction_,      viscous_force_,     kernel_gradient_sum_};
         const FreeSurfaceMomentum<with_walls()> momentum{mobility_,           particles_.volume, *excess_pressure_,
                                                          particles_.velocity, viscosity,         pressure_force_,
                                                          viscous_force_,      *wall_force_};
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), momentum, traction, others...);
     };
     const auto sum_with_remedies = [&](const auto&... others) {
-        if (artificial_force_) return sum(std::true_type{}, others..., artificial_viscosity(), artificial_stress());
+        if (artificial_force_) return sum(std::true_type{}, artificial_viscosity(), artificial_stress(), others...);
         neighbourhood.standing().empty() ? sum(std::false_type{}, others...) : sum(std::true_type{}, others...);
     };
     const auto sum_with_density = [&](const auto&... others) {
@@ -291,12 +235,12 @@ std::vector<Index> FreeSurfaceFlow::mark_reach_of_surface_stress(const Neighbour
 
 SurfaceStressShare FreeSurfaceFlow::surface_stress_share()
 {
-    return {mobility_,      correction_,       surface_->fields(), parameters_.smoothing_length,
+    return {mobility_,      correction_,       *kernel_gradient_sum_, surface_->fields(), parameters_.smoothing_length,
             *stress_share_, *stress_direction_};
 }
 
-/// The load on the surface carried into the liquid, one step further than the last, and its force; in the same pass
-/// how a stress on the surface is shared out. A run starts with the load's mean over the surface everywhere.
+/// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
+/// the load's mean over the surface everywhere.
 void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_start)
 {
     const SurfaceFields& surface = surface_->fields();
@@ -323,11 +267,8 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         const double at_depth = (*load_)[i] - fall;
         (*carried_load_)[i] = (1.0 - share) * (*carried_mean_)[i] + share * at_depth;
     });
-    const SurfacePressure pressure{mobility_, correction_, *carried_load_, *carried_mean_, *carried_gradient_};
-    const auto sum = [&](const auto&... others) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), pressure, others...);
-    };
-    stress_share_ ? sum(surface_stress_share()) : sum();
+    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
+                  SurfacePressure{mobility_, correction_, *carried_load_, *carried_mean_, *carried_gradient_});
     neighbourhood.for_each_moving([&](Index i) {
         force_.set(i, force_[i] - particles_.volume[i] * (*carried_gradient_)[i]);
         particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
@@ -381,10 +322,8 @@ void FreeSurfaceFlow::evaluate(const Neighbourhood& neighbourhood, double time_s
     add_up_forces(neighbourhood);
     add_cohesion(neighbourhood);
     find_load(neighbourhood, temperature_gradient_ != nullptr);
-    if (carried_load_)
-        carry_load(neighbourhood, time_step == 0.0);
-    else if (stress_share_)
-        for_each_pair(neighbourhood.list(), particles_, kernel_, stressed, surface_stress_share());
+    if (carried_load_) carry_load(neighbourhood, time_step == 0.0);
+    if (stress_share_) for_each_pair(neighbourhood.list(), particles_, kernel_, stressed, surface_stress_share());
     accelerate(neighbourhood);
 }
 

@@ -2,6 +2,7 @@
 
 #include "integrators/flow.hpp"
 #include "integrators/free_bodies.hpp"
+#include "models/continuity.hpp"
 #include "models/shifting_exchange.hpp"
 #include "models/surface_stress.hpp"
 #include "models/velocity_gradient.hpp"
@@ -31,6 +32,11 @@ public:
 private:
     void start_hydrostatic();
     void find_rates(const Neighbourhood& neighbourhood);
+    void take_trace_in_band(const Neighbourhood& neighbourhood);
+    ContinuityByWalls continuity_by_walls() const
+    {
+        return {mobility_, particles_.density, particles_.velocity, density_rate_by_walls_};
+    }
     template <bool with_walls, class SumWith>
     void sum_with_exchange(const Neighbourhood& neighbourhood, const SumWith& sum_with);
     void exchange(const Neighbourhood& neighbourhood, double time_step);
@@ -39,7 +45,6 @@ private:
         double flow, diffusion, shifting; ///< s
     };
     void compress(const Neighbourhood& neighbourhood, const CompressionTimes& times);
-    MechanicalWork compress(Index i, const CompressionTimes& times);
     void find_pressure_force(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void find_forces(const Neighbourhood& neighbourhood, bool with_density_gradient);
     void correct_density_gradient(const Neighbourhood& neighbourhood);
@@ -52,10 +57,11 @@ private:
     CorrectionMatrix correction_;
     VelocityGradientFields velocity_gradient_;
     ScalarField& density_rate_;
-    ScalarField& density_rate_by_walls_;
+    ScalarField& density_rate_by_walls_; ///< only set where there are any near
     double rest_density_;
     double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
     bool exchanged_ = false;   ///< whether what shifting carries has been exchanged since then
+    VectorField* kernel_gradient_sum_ = nullptr; ///< only where a stress on the surface is shared out
     // Only where a load is carried (surface_pressure.hpp):
     ScalarField* replaced_rate_ = nullptr; ///< what the surface's band has for the partner of the pressure force
     ScalarField* carried_load_ = nullptr;

@@ -10,19 +10,26 @@ namespace cupel::inline CUPEL_ENGINE
 void FreeSurfaceFlow::find_densities(const Neighbourhood& neighbourhood, const SoundStep& step)
 {
     const bool exchanges = shift_ && step.halfway;
+    const Continuity continuity{mobility_, particles_.density, particles_.velocity, density_rate_};
+    const ContinuityOfBand of_band{mobility_,
+                                   particles_.density,
+                                   particles_.velocity,
+                                   correction_,
+                                   carried_load_ ? &surface_->fields().delta : nullptr,
+                                   density_rate_,
+                                   replaced_rate_};
+    const auto sum_all = [&](const auto&... others) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...,
+                      of_band);
+    };
     const auto sum = [&](auto with_walls) {
-        const auto sum_all = [&](const auto&... others) {
-            const ContinuityOfSound<with_walls()> continuity{mobility_,
-                                                             particles_.density,
-                                                             particles_.velocity,
-                                                             correction_,
-                                                             carried_load_ ? &surface_->fields().delta : nullptr,
-                                                             density_rate_,
-                                                             density_rate_by_walls_,
-                                                             replaced_rate_};
-            for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), continuity, others...);
+        const auto sum_with_walls = [&](const auto&... others) {
+            if constexpr (with_walls())
+                sum_all(continuity_by_walls(), others...);
+            else
+                sum_all(others...);
         };
-        exchanges ? sum_with_exchange<with_walls()>(neighbourhood, sum_all) : sum_all();
+        exchanges ? sum_with_exchange<with_walls()>(neighbourhood, sum_with_walls) : sum_with_walls();
     };
     extrapolate_velocity(neighbourhood, exchanges);
     neighbourhood.standing().empty() ? sum(std::false_type{}) : sum(std::true_type{});

@@ -39,9 +39,7 @@ std::vector<Index> Neighbourhood::moving_near(std::span<const Index> clusters) c
 {
     std::vector<Index> found;
     if (clusters.empty()) return found;
-    std::vector<unsigned char> near(all_.size(), 0);
-    for (const Index c : clusters)
-        list_.for_each_neighbour(c, [&](Index j) { near[static_cast<std::size_t>(list_.cluster_of(j))] = 1; });
+    const std::vector<unsigned char> near = list_.seen_from(clusters);
     for (const Index c : moving_)
         if (near[static_cast<std::size_t>(c)]) found.push_back(c);
     return found;

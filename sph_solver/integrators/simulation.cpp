@@ -187,17 +187,18 @@ void Simulation::kick(const KickTimes& times, double with_new_velocity)
 {
     Particles& particles = *scene_.particles;
     flow_->books() += sum_over_moving([&](Index i) {
-        const Vector before = particles.velocity[i], change = flow_->kick(i, times);
+        const Flow::Kick kick = flow_->kick(i, times);
+        const Vector before = particles.velocity[i], change = kick.change;
         const bool mushy = melts_ && (*liquid_fraction_)[i] < 1.0;
         // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
         const double kept =
             mushy ? mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound) : 1.0;
         const Vector velocity = kept * (before + change);
         particles.velocity.set(i, velocity);
-        if (!mushy) return flow_->work(i, before + 0.5 * change, times);
+        if (!mushy) return flow_->work(i, kick, before + 0.5 * change, times);
         // Within a kick drag may stop what forces move. They do their work on the path that is left, and drag takes the
         // rest of what kinetic energy loses.
-        MechanicalWork work = flow_->work(i, before + with_new_velocity * (velocity - before), times);
+        MechanicalWork work = flow_->work(i, kick, before + with_new_velocity * (velocity - before), times);
         work.mush = 0.5 * particles.mass[i] * (dot(velocity, velocity) - dot(before, before)) - work.on_motion();
         return work;
     });

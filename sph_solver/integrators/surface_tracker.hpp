@@ -24,7 +24,10 @@ public:
     /// liquid in a corner a surface, which they then continue, and which so stays for ever.
     void start(const Neighbourhood& neighbourhood);
     /// What has to be summed first, with whatever else a pass sums; then find() does the rest.
-    template <bool two_phase> ColourGradient<two_phase> colour_gradient() const { return {mobility_, h_, fields_}; }
+    template <bool two_phase, bool with_walls = true> ColourGradient<two_phase, with_walls> colour_gradient() const
+    {
+        return {mobility_, h_, fields_};
+    }
     void find(const Neighbourhood& neighbourhood);
 
     const SurfaceFields& fields() const { return fields_; }

@@ -347,4 +347,18 @@ std::size_t NeighbourList::bytes() const
     return total + boxes_in_columns_.bytes() + 3 * built_x_.size() * sizeof(double);
 }
 
+std::vector<unsigned char> NeighbourList::seen_from(std::span<const Index> clusters) const
+{
+    std::vector<unsigned char> seen(clusters_.size(), 0);
+    const auto mark = [&](Index particle) { seen[static_cast<std::size_t>(cluster_of(particle))] = 1; };
+    for (const Index c : clusters) {
+        for (const Listed& some : near(c))
+            mark(some.first);
+        for (const ImageRun& run : image_runs(c))
+            for (Index j = run.first; j < run.first + run.count; ++j)
+                mark(j);
+    }
+    return seen;
+}
+
 } // namespace cupel::inline CUPEL_ENGINE

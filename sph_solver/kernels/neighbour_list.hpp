@@ -109,6 +109,8 @@ public:
             for (Index j = run.first; j < run.first + run.count; ++j)
                 visit(j);
     }
+    /// Which clusters these see something of, a mark for each.
+    std::vector<unsigned char> seen_from(std::span<const Index> clusters) const;
     std::uint64_t builds() const { return builds_; }
     std::uint64_t refreshes() const { return refreshes_; }
     double support() const { return support_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -139,10 +140,10 @@ sum_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& a
     return typename TermsOfCluster<Terms...>::Sums(std::as_const(sums));
 }
 
-/// The same for terms of few sums and a kernel without roots: a few neighbours at a time go from distance to sum in
-/// registers, and one that is beyond the support like any other. That is fewer operations, and nothing long to wait
-/// for.
-template <class... Terms>
+/// The same for terms of few sums, the first `used` of them, and a kernel without roots: a few neighbours at a time go
+/// from distance to sum in registers, and one that is beyond the support like any other. That is fewer operations, and
+/// nothing long to wait for.
+template <std::size_t used, class... Terms>
 [[gnu::flatten]] typename TermsOfCluster<Terms...>::Sums
 few_sums_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLanes& at,
               const PairMaker<RootFree>& pair_at, const TermsOfCluster<Terms...>& terms)
@@ -160,7 +161,7 @@ few_sums_over(const SomeRecords<Neighbour<Terms...>>& neighbours, const PlaceLan
             const auto& other = records[next[k]];
             return pair_of(offset_between(here, other.place), other.volume);
         }()...};
-        (terms.add(records[next[k]].far, pairs[k], sums), ...);
+        (terms.template add<0, used>(records[next[k]].far, pairs[k], sums), ...);
         next += sizeof...(k);
     };
     std::size_t left = neighbours.which.size();
@@ -185,6 +186,31 @@ template <class Kernel, class... Terms>
                    });
 }
 
+/// What a pass keeps of particles as neighbours, in memory that passes share: of all that the clusters see, or of all
+/// there are where that is about the same. Null where so few see any that each looks them up.
+template <class Record, class RecordOf>
+const Record* records_for(const NeighbourList& list, std::span<const Index> clusters, Index particles,
+                          const RecordOf& record)
+{
+    const auto count = static_cast<Index>(clusters.size()), all = list.cluster_count();
+    if (8 * count < all) return nullptr;
+    auto* records = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(particles) * sizeof(Record)));
+    const auto keep = [&](Index j) { new (records + j) Record(record(j, record.far(j))); };
+    if (2 * count > all) {
+#pragma omp parallel for schedule(static)
+        for (Index j = 0; j < particles; ++j)
+            keep(j);
+        return records;
+    }
+    const std::vector<unsigned char> seen = list.seen_from(clusters);
+#pragma omp parallel for schedule(static)
+    for (Index c = 0; c < all; ++c)
+        if (seen[static_cast<std::size_t>(c)])
+            for (Index j = list.cluster(c).first; j < list.cluster(c).first + list.cluster(c).count; ++j)
+                keep(j);
+    return records;
+}
+
 /// Sums over neighbours, several of them in one pass. A term is a struct with
 ///
 ///   struct Near                              what a term needs of particle i (a cluster of them, in lanes)
@@ -204,15 +230,23 @@ template <class Kernel, class... Terms>
 /// j`. Far may be left out: then add() gets the place j (and must not ask for a vector there, which an image beyond a
 /// symmetry side would have to turn). The particle itself is among its neighbours (distance zero,
 /// gradient zero, W = W(0)). Each sum is added up by one thread in the order of the list, so the result does not depend
-/// on the number of threads.
+/// on the number of threads. Where sums are few it is quicker with local terms last.
 ///
-/// Where most clusters take part, what neighbours are asked for is gathered once for the whole pass; where few do, it
-/// is looked up for each cluster. The numbers are the same.
+/// What neighbours are asked for is gathered once for the whole pass, or where few clusters take part looked up for
+/// each of them. The numbers are the same.
 template <class Kernel, class... Terms>
 void for_each_pair(const NeighbourList& list, const Particles& particles, const Kernel& kernel,
                    std::span<const Index> clusters, const Terms&... terms)
 {
     using Record = Neighbour<Terms...>;
+    const auto idle = [&](const Cluster& cluster) { return list.skips_idle() && (terms.idle(cluster) && ...); };
+    std::vector<Index> concerned;
+    constexpr bool concerns_few = ((Ignores<Terms> || Local<Terms>)&&...);
+    if constexpr (concerns_few) {
+        std::copy_if(clusters.begin(), clusters.end(), std::back_inserter(concerned),
+                     [&](Index c) { return !idle(list.cluster(c)); });
+        clusters = concerned;
+    }
     const auto count = static_cast<Index>(clusters.size());
     const double support_squared = list.support() * list.support();
     const PairMaker<Kernel> pair_at{kernel.template in<Real>(), 1e-18 * support_squared,
@@ -232,16 +266,11 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
         else
             return ~0u;
     };
-    const Record* records = nullptr;
-    if (8 * count >= list.cluster_count()) {
-        const Index all = particles.count();
-        auto* made = reinterpret_cast<Record*>(pass_memory(static_cast<std::size_t>(all) * sizeof(Record)));
-#pragma omp parallel for schedule(static)
-        for (Index j = 0; j < all; ++j)
-            new (made + j) Record(record(j, record.far(j)));
-        records = made;
-    }
-    constexpr bool few_sums = (sizeof(typename Terms::Sum) + ...) < 6 * sizeof(Lanes);
+    const Record* const records = records_for<Record>(list, clusters, particles.count(), record);
+    // As many as registers hold beside a few neighbours: of the widest there are twice as many.
+    constexpr std::size_t few = register_bytes == 64 ? 8 : 5;
+    constexpr bool few_sums = locals_are_last<Terms...> && (sizeof(typename Terms::Sum) + ...) <= few * sizeof(Lanes);
+    constexpr std::size_t all_used = sizeof...(Terms), without_locals = (!Local<Terms> + ... + 0);
     constexpr Index clusters_at_a_time = 16;
     Stretches stretches(count, clusters_at_a_time);
     // A few clusters are done sooner than threads are woken.
@@ -258,17 +287,20 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
                         prefetch(particles.position, later);
                         TermsOfCluster<Terms...>::ahead(all_terms, later);
                     }
-                    if (list.skips_idle() && (terms.idle(cluster) && ...)) continue;
+                    if (!concerns_few && idle(cluster)) continue;
                     const TermsOfCluster<Terms...> of_cluster(all_terms, cluster);
                     const auto found = records ? neighbours.find(list.near(c), records, wanted)
                                                : neighbours.look_up(list.near(c), record, wanted);
                     const PlaceLanes at = places.of_cluster(cluster.first);
                     auto sums = [&] {
                         if constexpr (few_sums && requires { pair_at.kernel.without_roots(); })
-                            if (const auto* formula = pair_at.kernel.without_roots())
-                                return few_sums_over(found, at,
-                                                     PairMaker<RootFree>{*formula, pair_at.tiny, pair_at.farthest},
-                                                     of_cluster);
+                            if (const auto* formula = pair_at.kernel.without_roots()) {
+                                const PairMaker<RootFree> root_free{*formula, pair_at.tiny, pair_at.farthest};
+                                if constexpr (without_locals < all_used)
+                                    if (!of_cluster.template any_concerned<without_locals, all_used>())
+                                        return few_sums_over<without_locals>(found, at, root_free, of_cluster);
+                                return few_sums_over<all_used>(found, at, root_free, of_cluster);
+                            }
                         return sum_over(found, at, pair_at, of_cluster);
                     }();
                     if (!list.image_runs(c).empty()) add_images(list, c, record, pair_at, of_cluster, sums);

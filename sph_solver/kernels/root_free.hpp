@@ -37,38 +37,52 @@ public:
         const double six = std::tgamma(7.0) / std::tgamma(7.0 + half);
         const double nine = share * std::tgamma(10.0) / std::tgamma(10.0 + half);
         const double volume = dimensions == 2 ? support_ * support_ : support_ * support_ * support_;
-        const double value = 1.0 / (std::pow(std::numbers::pi, half) * (six + nine) * volume);
-        const double inverse_square = 1.0 / (support_ * support_), gradient = 12.0 * value * inverse_square;
-        formula_ = {inverse_square, value, -share * value, gradient, -1.5 * share * gradient};
+        value_ = 1.0 / (std::pow(std::numbers::pi, half) * (six + nine) * volume);
+        formula_ = in<double>();
     }
 
     double smoothing_length() const { return support_ / 3.0; }
     double support() const { return support_; }
 
-    /// Of r² in m²; zero beyond the support.
+    /// Of r² in m²; zero beyond the support. In double t is taken in m², which saves a product; in float its powers
+    /// would be too small, and it is scaled.
     template <class Number> struct Formula
     {
-        Number inverse_square, value, value_odd, gradient, gradient_odd;
+        static constexpr bool scaled = sizeof(Number) < sizeof(double);
+
+        Number support_square, inverse_square, value, value_odd, gradient, gradient_odd;
 
         template <class Scalar> KernelValue<Scalar> operator()(const Scalar& square) const
         {
-            const Scalar t = minimum(inverse_square * square - Number(1), Scalar{}); // −t₊
+            Scalar t; // −t₊
+            if constexpr (scaled)
+                t = minimum(inverse_square * square - Number(1), Scalar{});
+            else
+                t = minimum(square - support_square, Scalar{});
             const Scalar t2 = t * t, t3 = t2 * t;
             return {(t3 * t3) * (value + value_odd * t3), (t2 * t3) * (gradient + gradient_odd * t3)};
         }
     };
     template <class Number> Formula<Number> in() const
     {
-        const auto& f = formula_;
-        return {Number(f.inverse_square), Number(f.value), Number(f.value_odd), Number(f.gradient),
-                Number(f.gradient_odd)};
+        // What lies on the edge, as a lattice's third layer does, is seen with next to no weight whatever round-off
+        // says: it may be all that tells a direction.
+        const double edge = 1.0 + 1e-14;
+        const double square = support_ * support_, unit = Formula<Number>::scaled ? 1.0 : square; // of t
+        const double cube = unit * unit * unit, gradient = 12.0 * value_ / square;
+        return {Number(edge * square),
+                Number(1.0 / square),
+                Number(value_ / (cube * cube)),
+                Number(-share * value_ / (cube * cube * cube)),
+                Number(gradient / (unit * unit * cube)),
+                Number(-1.5 * share * gradient / (unit * unit * cube * cube))};
     }
     KernelValue<double> operator()(double r) const { return formula_(r * r); }
 
 private:
     static constexpr double share = 1.5; ///< of t⁹
 
-    double support_;
+    double support_, value_; ///< R in m, A
     Formula<double> formula_;
 };
 

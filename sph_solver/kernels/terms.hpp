@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -69,6 +70,12 @@ concept Local = requires
 {
     requires Term::local;
 };
+
+template <class... Terms>
+inline constexpr bool locals_are_last = [] {
+    const bool local[]{Local<Terms>...};
+    return std::is_sorted(std::begin(local), std::end(local));
+}();
 
 template <class Term> auto far_of(const Term& term, Index j)
 {

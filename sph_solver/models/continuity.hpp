@@ -1,8 +1,6 @@
 #pragma once
 
-#include <type_traits>
-
-#include "models/velocity_gradient.hpp"
+#include "models/gradient_correction.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -16,67 +14,123 @@ namespace cupel::inline CUPEL_ENGINE
 /// particles lie, and in a closed layer the packing drifts from the density (1.6 % of the depth in a quarter of a
 /// turn). The price: rows that slide past each other breathe, and a stiff pressure answers with drag, which shows where
 /// the sound speed is hundreds of times the flow's (validation_cases/marangoni_layer/README.md). Walls and solids take
-/// part with their extrapolated velocity; what that does to density, −ρ_i Σ_w V_w v_w·∇W_iw, is kept for the books.
-///
-/// At a free surface a kernel that is cut off sees half of what changes across the surface and most of what changes
-/// along it, so that a flow without divergence seems to have one: layers move by turns too far and too little, and a
-/// capillary wave of 16 spacings is 12 % slow and damped by a quarter too little (8 and 15 % with what follows). Where
-/// the load on the surface is carried into the liquid (surface_pressure.hpp), its band takes the trace of the corrected
-/// gradient, dρ/dt = −ρ tr ∇v. Elsewhere it keeps the sum, the partner of the pressure force: what is lost without it
-/// is energy of the size of p' times that divergence, nothing where λ bears the load, but a gravity wave then loses a
-/// fifth of its damping.
-template <bool with_walls = true> struct Continuity
+/// part with their extrapolated velocity.
+struct Continuity
 {
     Mobility mobility;
     const ScalarField& density;
     const VectorField& velocity;
-    VelocityGradientFields gradient;  ///< ∇v, corrected, of this step
-    const ScalarField* surface_delta; ///< above zero in the surface's band; null where the load is not carried
     ScalarField& density_rate;
-    ScalarField& by_walls; ///< of the sum, what walls and solids do by the way they move, kg/(m³ s)
-    ScalarField* replaced; ///< for the books: what the trace has more than the sum, kg/(m³ s); null where there is none
 
     using Near = Of<Lanes, quantity::Density, quantity::Velocity>;
-    using Far =
-        std::conditional_t<with_walls, Of<Real, quantity::Liquid, quantity::Velocity>, Of<Real, quantity::Velocity>>;
+    using Far = Of<Real, quantity::Velocity>;
     struct Sum
     {
         Lanes divergence{};
-        [[no_unique_address]] std::conditional_t<with_walls, Lanes, Nothing> walls{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    void ahead(Index first) const { prefetch_all(first, density, density_rate, by_walls); }
+    void ahead(Index first) const { prefetch_all(first, mobility.weight, density, velocity, density_rate); }
     Near near(Index first) const { return {lanes(density, first), lanes(velocity, first)}; }
-    Far far(Index j) const
-    {
-        if constexpr (with_walls)
-            return {real(mobility.weight[j]), real(velocity[j])};
-        else
-            return {real(velocity[j])};
-    }
+    Far far(Index j) const { return {real(velocity[j])}; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes change = i.velocity - broadcast(j.velocity);
-        sum.divergence += change.x * pair.volume_gradient.x;
-        sum.divergence += change.y * pair.volume_gradient.y;
-        sum.divergence += change.z * pair.volume_gradient.z;
-        if constexpr (with_walls)
-            if (j.liquid == 0) sum.walls -= dot(broadcast(j.velocity), pair.volume_gradient);
+        sum.divergence += pair.volume_gradient_over_r * dot(i.velocity - broadcast(j.velocity), pair.offset);
     }
     void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
-        const unsigned liquid = mobility.moving_in(cluster);
-        const Lanes partner = i.density * sum.divergence;
-        if constexpr (with_walls)
-            store_lanes(by_walls, cluster.first, liquid, i.density * sum.walls);
-        else
-            store_lanes(by_walls, cluster.first, liquid, Lanes{});
-        if (!surface_delta) return store_lanes(density_rate, cluster.first, liquid, partner);
-        const auto [u, v, w] = gradient.of_cluster(cluster.first);
-        const Lanes rate = select(lanes(*surface_delta, cluster.first) > 0.0, -i.density * (u.x + v.y + w.z), partner);
-        store_lanes(density_rate, cluster.first, liquid, rate);
-        if (replaced) store_lanes(*replaced, cluster.first, liquid, rate - partner);
+        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster), i.density * sum.divergence);
+    }
+};
+
+/// What of it walls and solids do by the way they move, −ρ_i Σ_w V_w v_w·∇W_iw      [kg/(m³ s)]
+struct ContinuityByWalls
+{
+    Mobility mobility;
+    const ScalarField& density;
+    const VectorField& velocity;
+    ScalarField& density_rate;
+
+    using Near = Of<Lanes, quantity::Density>;
+    using Far = Of<Real, quantity::Liquid, quantity::Velocity>;
+    struct Sum
+    {
+        Lanes divergence{};
+    };
+
+    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
+    void ahead(Index first) const { prefetch(density_rate, first); }
+    Near near(Index first) const { return {lanes(density, first)}; }
+    Far far(Index j) const { return {real(mobility.weight[j]), real(velocity[j])}; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        if (j.liquid == 0) sum.divergence -= dot(broadcast(j.velocity), pair.volume_gradient);
+    }
+    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
+    {
+        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster), i.density * sum.divergence);
+    }
+};
+
+/// Continuity in the band of a free surface whose load is carried into the liquid (surface_pressure.hpp):
+///
+///   dρ_i/dt = ρ_i Σ_j V_j (v_i − v_j)·L_i ∇W_ij = −ρ_i tr ∇v_i      [kg/(m³ s)]
+///
+/// At a free surface a kernel that is cut off sees half of what changes across the surface and most of what changes
+/// along it, so that a flow without divergence seems to have one: layers move by turns too far and too little, and a
+/// capillary wave of 16 spacings is 12 % slow and damped by a quarter too little (8 and 15 % with this). Elsewhere the
+/// sum above is kept, the partner of the pressure force: what is lost without it is energy of the size of p' times that
+/// divergence, nothing where λ bears the load, but a gravity wave then loses a fifth of its damping.
+struct ContinuityOfBand
+{
+    Mobility mobility;
+    const ScalarField& density;
+    const VectorField& velocity;
+    CorrectionMatrix correction;      ///< L of the last whole step
+    const ScalarField* surface_delta; ///< above zero in the band; null where no load is carried: nothing to do
+    ScalarField& density_rate;        ///< comes in as Continuity has it
+    ScalarField* replaced;            ///< for the books: what this is more than that, kg/(m³ s)
+
+    static constexpr bool local = true;
+
+    template <class Scalar> struct Correction
+    {
+        Symmetric3<Scalar> correction;
+    };
+    using Near = Of<Lanes, quantity::Density, quantity::Velocity, Correction>;
+    using Far = Of<Real, quantity::Velocity>;
+    struct Sum
+    {
+        Lanes divergence{};
+    };
+
+    unsigned in_band(const Cluster& cluster) const
+    {
+        return surface_delta ? set_lanes(lanes(*surface_delta, cluster.first) > 0.0) & mobility.moving_in(cluster) : 0;
+    }
+    bool idle(const Cluster& cluster) const { return in_band(cluster) == 0; }
+    void ahead(Index first) const
+    {
+        if (surface_delta) prefetch(*surface_delta, first);
+    }
+    Near near(Index first) const
+    {
+        const bool any = surface_delta && set_lanes(lanes(*surface_delta, first) > 0.0) != 0;
+        return {lanes(density, first), lanes(velocity, first),
+                any ? correction.of_cluster(first) : Symmetric3<Lanes>{}};
+    }
+    Far far(Index j) const { return {real(velocity[j])}; }
+    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        const VectorLanes change = i.velocity - broadcast(j.velocity);
+        sum.divergence += pair.volume_gradient_over_r * dot(change, i.correction * pair.offset);
+    }
+    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
+    {
+        const unsigned band = in_band(cluster);
+        const Lanes rate = i.density * sum.divergence;
+        store_lanes(*replaced, cluster.first, band, rate - lanes(density_rate, cluster.first));
+        store_lanes(density_rate, cluster.first, band, rate);
     }
 };
 

@@ -17,9 +17,9 @@ struct EquationOfState
 
     double pressure(double density, double rest_density) const
     {
-        const double stiffness = sound_speed * sound_speed * rest_density / exponent;
-        const double ratio = density / rest_density;
-        return exponent == 1.0 ? stiffness * (ratio - 1.0) : stiffness * (std::pow(ratio, exponent) - 1.0);
+        const double c2 = sound_speed * sound_speed;
+        if (exponent == 1.0) return c2 * (density - rest_density);
+        return c2 * rest_density / exponent * (std::pow(density / rest_density, exponent) - 1.0);
     }
     /// Elastic energy e = ∫ p/ρ² dρ from the rest density, J/kg; with x = ρ/ρ₀:
     ///
@@ -30,13 +30,24 @@ struct EquationOfState
     ///   γ = 1:  c₀² Σ_k (−y)^k (k − 1)/k, k ≥ 2       else:  c₀² [y²/2 + (γ − 5) y³/6 + …]
     double elastic_energy(double density, double rest_density) const
     {
-        const double x = density / rest_density, y = x - 1.0, c2 = sound_speed * sound_speed;
+        return elastic_energy((density - rest_density) / rest_density);
+    }
+    /// The series for γ = 1, of one particle or of several at a time: to 10⁻¹³ of itself up to this y.
+    static constexpr double series_up_to = 0.02;
+    template <class Scalar> Scalar elastic_energy_near_rest(const Scalar& y) const
+    {
+        Scalar sum(0.0);
+        for (int k = 8; k >= 2; --k)
+            sum = Scalar((k - 1.0) / k) - y * sum;
+        return Scalar(sound_speed * sound_speed) * y * y * sum;
+    }
+    /// Of y.
+    double elastic_energy(double compression) const
+    {
+        const double y = compression, x = 1.0 + y, c2 = sound_speed * sound_speed;
         if (exponent == 1.0) {
-            if (std::abs(y) > 0.02) return c2 * (std::log(x) + 1.0 / x - 1.0);
-            double sum = 0.0;
-            for (int k = 8; k >= 2; --k)
-                sum = (k - 1.0) / k - y * sum;
-            return c2 * y * y * sum;
+            if (std::abs(y) > series_up_to) return c2 * (std::log(x) + 1.0 / x - 1.0);
+            return elastic_energy_near_rest(y);
         }
         if (std::abs(y) < 1e-4) return c2 * y * y * (0.5 + (exponent - 5.0) / 6.0 * y);
         return c2 / exponent * ((std::pow(x, exponent - 1.0) - 1.0) / (exponent - 1.0) + 1.0 / x - 1.0);

@@ -46,14 +46,18 @@ template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
     };
     template <class Scalar> struct Speed
     {
-        Scalar evening_speed; ///< h/2V₀ U
+        Scalar half_evening_speed; ///< h/4V₀ U
+    };
+    template <class Scalar> struct DensityShift
+    {
+        VectorOf<Scalar> density_shift; ///< ρ δu
     };
     template <class Scalar> struct Carried
     {
         Scalar enthalpy;
     };
     using Near =
-        Of<Lanes, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged, Carried>;
+        Of<Lanes, quantity::Density, quantity::Velocity, DensityShift, quantity::Mass, Speed, Exchanged, Carried>;
     using OfLiquid =
         Of<Real, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged, Carried>;
     using OfAny = Of<Real, quantity::Density, quantity::Velocity, quantity::Shift, quantity::Mass, Speed, Exchanged,
@@ -61,7 +65,8 @@ template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
     using Far = std::conditional_t<with_walls, OfAny, OfLiquid>;
     struct Sum
     {
-        Lanes density{}, mass{}, energy{};
+        Lanes density{}, mass{};
+        Lanes energy{}, with_own{}; ///< what comes with h_j, W/m³; mass that goes with h_i, kg/(m³ s)
         VectorLanes momentum{};
     };
 
@@ -73,11 +78,12 @@ template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
     }
     Near near(Index first) const
     {
-        return {lanes(density, first),
+        const Lanes density_i = lanes(density, first);
+        return {density_i,
                 lanes(velocity, first),
-                lanes(shift, first),
+                density_i * lanes(shift, first),
                 lanes(mass, first),
-                Lanes(real(evening)) * lanes(speed, first),
+                Lanes(real(0.5 * evening)) * lanes(speed, first),
                 lanes(balance, first),
                 with_enthalpy ? lanes(*enthalpy, first) : Lanes{}};
     }
@@ -87,27 +93,33 @@ template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
                            real(velocity[j]),
                            real(shift[j]),
                            real(mass[j]),
-                           real(evening * speed[j]),
+                           real(0.5 * evening * speed[j]),
                            real(balance[j]),
                            with_enthalpy ? real((*enthalpy)[j]) : Real{}};
         if constexpr (with_walls)
-            return {far.density,       far.velocity, far.shift,    far.mass,
-                    far.evening_speed, far.balance,  far.enthalpy, real(mobility.weight[j])};
+            return {far.density,
+                    far.velocity,
+                    far.shift,
+                    far.mass,
+                    far.half_evening_speed,
+                    far.balance,
+                    far.enthalpy,
+                    real(mobility.weight[j])};
         else
             return far;
     }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         const Lanes balanced = minimum(i.balance, Lanes(j.balance));
-        const Lanes weight = balanced * pair.volume_gradient_over_r, weight_i = i.density * weight;
-        const Lanes other = dot(broadcast(j.shift), pair.offset);
-        const Lanes gained = (j.density * weight) * other, lost = weight_i * dot(i.shift, pair.offset);
-        sum.density += gained;
-        sum.density -= weight_i * other;
+        const Lanes weight = balanced * pair.volume_gradient_over_r;
+        const Lanes other = weight * dot(broadcast(j.shift), pair.offset);
+        const Lanes gained = j.density * other, lost = weight * dot(i.density_shift, pair.offset);
+        sum.density += (j.density - i.density) * other;
         sum.density += 2.0 * lost;
-        const Lanes rate = (1.0 - balanced) * minimum(i.evening_speed, Lanes(j.evening_speed));
-        const Lanes evened = (rate * pair.volume_gradient_over_r) * (i.mass - j.mass);
-        const Lanes exchanged = gained + lost + evened;
+        // Half of what evens masses is taken with h_j, half with h_i.
+        const Lanes rate = (1.0 - balanced) * minimum(i.half_evening_speed, Lanes(j.half_evening_speed));
+        const Lanes half_evened = (rate * pair.volume_gradient_over_r) * (i.mass - j.mass);
+        const Lanes with_j = gained + half_evened, with_i = lost + half_evened, exchanged = with_j + with_i;
         sum.momentum += exchanged * (broadcast(j.velocity) - i.velocity);
         const auto if_liquid = [&](const Lanes& amount) {
             if constexpr (with_walls)
@@ -117,17 +129,18 @@ template <bool with_enthalpy, bool with_walls = true> struct ShiftingExchange
         };
         sum.mass += if_liquid(exchanged);
         if constexpr (with_enthalpy) {
-            const Lanes half = 0.5 * evened;
-            sum.energy += if_liquid(j.enthalpy * (gained + half) + i.enthalpy * (lost + half));
+            sum.with_own += if_liquid(with_i);
+            sum.energy += if_liquid(j.enthalpy * with_j);
         }
     }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    void store(const Cluster& cluster, const Near& i, const Sum& sum) const
     {
         const unsigned liquid = mobility.moving_in(cluster);
         const Lanes v = lanes(volume, cluster.first);
         store_lanes(density_rate, cluster.first, liquid, sum.density);
         store_lanes(mass_rate, cluster.first, liquid, v * sum.mass);
-        if constexpr (with_enthalpy) store_lanes(*energy_rate, cluster.first, liquid, v * sum.energy);
+        if constexpr (with_enthalpy)
+            store_lanes(*energy_rate, cluster.first, liquid, v * (sum.energy + i.enthalpy * sum.with_own));
         store_lanes(momentum_rate, cluster.first, liquid, (0.5 * v) * sum.momentum);
     }
 };

@@ -63,9 +63,11 @@ struct SurfaceThresholds
 ///
 ///   two phases:    −∇c_i = −Σ_j V_j (c_j − c_i) ∇W_ij       free surface:    −∇c_i = −Σ_j V_j c_j ∇W_ij      [1/m]
 ///
-/// With a free surface the sum over nothing outside counts as c = 0 there.
-template <bool two_phase> struct ColourGradient
+/// With a free surface the sum over nothing outside counts as c = 0 there; without walls all else has c = 1.
+template <bool two_phase, bool with_walls = true> struct ColourGradient
 {
+    static constexpr bool has_colour = two_phase || with_walls;
+
     Mobility mobility;
     double smoothing_length;
     SurfaceFields surface;
@@ -76,7 +78,7 @@ template <bool two_phase> struct ColourGradient
     };
     struct Far
     {
-        Real colour;
+        [[no_unique_address]] std::conditional_t<has_colour, Real, Nothing> colour;
     };
     struct Sum
     {
@@ -97,14 +99,25 @@ template <bool two_phase> struct ColourGradient
         else
             return {};
     }
-    Far far(Index j) const { return {real(surface.colour[j])}; }
-    void add([[maybe_unused]] const Near& i, const Far& j, const Pair& pair, Sum& sum) const
+    Far far([[maybe_unused]] Index j) const
+    {
+        if constexpr (has_colour)
+            return {real(surface.colour[j])};
+        else
+            return {};
+    }
+    void add([[maybe_unused]] const Near& i, [[maybe_unused]] const Far& j, const Pair& pair, Sum& sum) const
     {
         if constexpr (two_phase)
             sum.gradient -= (j.colour - i.colour) * pair.volume_gradient;
-        else
+        else if constexpr (with_walls)
             sum.gradient -= Lanes(j.colour) * pair.volume_gradient;
-        sum.colour += j.colour * pair.volume_kernel;
+        else
+            sum.gradient -= pair.volume_gradient;
+        if constexpr (has_colour)
+            sum.colour += j.colour * pair.volume_kernel;
+        else
+            sum.colour += pair.volume_kernel;
         if constexpr (two_phase) sum.weight += pair.volume_kernel;
         sum.companions += select(counted(pair, smoothing_length), 1.0, 0.0);
     }
@@ -120,7 +133,7 @@ template <bool two_phase> struct ColourGradient
     }
 };
 
-/// Smoothed normals (weight δ W over the band, sph.md's remedy for noisy curvature):
+/// Smoothed normals, with the weight δ W over the band: those of single particles are too noisy to be differentiated.
 ///
 ///   n̂_i ← Σ_j δ_j W_ij n̂_j / |…|      [1]
 struct NormalSmoothing

@@ -23,6 +23,7 @@ struct SurfaceStressShare
 {
     Mobility mobility;
     CorrectionMatrix correction; ///< L
+    const VectorField& own_sum;  ///< Σ_j V_j ∇W_ij, which L_i multiplies, from viscous_traction.hpp, 1/m
     SurfaceFields surface;
     double smoothing_length; ///< h, m
     ScalarField& share;      ///< δ*; comes in as `wanted` where it is asked for
@@ -35,13 +36,12 @@ struct SurfaceStressShare
     {};
     struct Far
     {
-        Real own; ///< how often L_i counts: 1, beside what continues it 2
-        Symmetric3<Real> other;
-        VectorOf<Real> normal; ///< n̂ times how far j belongs to the first layer
+        Symmetric3<Real> other; ///< L_j; zero of what continues the liquid before it, where L_i counts twice
+        VectorOf<Real> normal;  ///< n̂ times how far j belongs to the first layer
     };
     struct Sum
     {
-        VectorLanes own{}, others{}, normal{};
+        VectorLanes others{}, normal{};
     };
 
     static Symmetric3<double> trusted(const Symmetric3<double>& l)
@@ -61,17 +61,15 @@ struct SurfaceStressShare
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        if (mobility.weight[j] == 0.0) return {2, {}, {}};
+        if (mobility.weight[j] == 0.0) return {};
         const Symmetric3<double> l = trusted(correction[j]);
-        return {1,
-                {real(l.xx), real(l.xy), real(l.xz), real(l.yy), real(l.yz), real(l.zz)},
+        return {{real(l.xx), real(l.xy), real(l.xz), real(l.yy), real(l.yz), real(l.zz)},
                 real(share_of_surface(surface, j, smoothing_length) * surface.normal[j])};
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         const VectorLanes& n = pair.volume_gradient;
         const auto& l = j.other;
-        sum.own += Lanes(j.own) * n;
         sum.normal += pair.kernel * broadcast(j.normal);
         sum.others += VectorLanes{Lanes(l.xx) * n.x + Lanes(l.xy) * n.y + Lanes(l.xz) * n.z,
                                   Lanes(l.xy) * n.x + Lanes(l.yy) * n.y + Lanes(l.yz) * n.z,
@@ -90,9 +88,8 @@ struct SurfaceStressShare
                 if (!(length > 0.0)) continue;
                 outward = (1.0 / length) * outward;
             }
-            const Vector own{sum.own.x[lane], sum.own.y[lane], sum.own.z[lane]};
             const Vector others{sum.others.x[lane], sum.others.y[lane], sum.others.z[lane]};
-            share[i] = -dot(outward, trusted(correction[i]) * own + others);
+            share[i] = -dot(outward, trusted(correction[i]) * own_sum[i] + others);
             direction.set(i, outward);
         }
     }

@@ -27,6 +27,7 @@ struct VelocityGradientFields
             row->set(i, {});
     }
 
+    double trace(Index i) const { return x[i].x + y[i].y + z[i].z; }
     /// Magnitude of the strain rate, γ̇ = √(2 S:S), S = ½(∇v + ∇vᵀ)      [1/s]
     double strain_rate(Index i) const { return strain_rate(x[i], y[i], z[i]); }
     Lanes strain_rates(Index first) const
@@ -56,6 +57,9 @@ struct VelocityGradient
     const VectorField& velocity;
     CorrectionMatrix correction;
     VelocityGradientFields gradient;
+    /// The trace of the sum without L is that of continuity.hpp: where this is not null, its rate, kg/(m³ s).
+    ScalarField* density_rate = nullptr;
+    const ScalarField* density = nullptr; ///< only asked there
 
     using Near = Of<Lanes, quantity::Velocity>;
     using Far = Of<Real, quantity::Velocity>;
@@ -82,6 +86,9 @@ struct VelocityGradient
         store_lanes(gradient.x, cluster.first, liquid, l * sum.x);
         store_lanes(gradient.y, cluster.first, liquid, l * sum.y);
         store_lanes(gradient.z, cluster.first, liquid, l * sum.z);
+        if (density_rate)
+            store_lanes(*density_rate, cluster.first, liquid,
+                        -lanes(*density, cluster.first) * (sum.x.x + sum.y.y + sum.z.z));
     }
 };
 

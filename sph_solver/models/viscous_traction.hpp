@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "models/gradient_correction.hpp"
 #include "models/velocity_gradient.hpp"
 
@@ -28,7 +30,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// Between two viscosities the same half is (∇v)ᵀ·∇μ, which Morris's sum lacks as well: with it left out a drop of half
 /// the viscosity that Marangoni stress drives moves with τa/(2 μ_o + 6 μ_i), not τa/(4 μ_o + 4 μ_i), a fifth too fast.
 /// There each side has its own μ, less the least of all: a share that is the same everywhere adds nothing.
-struct ViscousTraction
+template <bool with_walls = true> struct ViscousTraction
 {
     Mobility mobility;
     const ScalarField& volume;
@@ -37,6 +39,7 @@ struct ViscousTraction
     const ScalarField* excess_viscosity; ///< μ_i less the least of all, Pa·s; null where there is one
     const CorrectionMatrix* correction;  ///< L; null where no kernel is cut off
     VectorField& force;                  ///< added to
+    VectorField* own_sum = nullptr; ///< keeps Σ_j V_j ∇W_ij, what continues i counted twice, where this is asked, 1/m
 
     template <class Scalar> struct Columns
     {
@@ -75,7 +78,8 @@ struct ViscousTraction
     {};
     struct Far
     {
-        Real own;               ///< how often A_i counts: 1, beside what continues it 2
+        /// How often A_i counts: 1, beside what continues it 2
+        [[no_unique_address]] std::conditional_t<with_walls, Real, Nothing> own;
         VectorOf<Real> x, y, z; ///< columns of A_j; zero of what continues that at i
 
         Far mirrored(const Vector& sign) const
@@ -101,15 +105,21 @@ struct ViscousTraction
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        const double liquid = mobility.weight[j];
-        if (liquid == 0.0) return {2, {}, {}, {}};
+        if constexpr (with_walls)
+            if (mobility.weight[j] == 0.0) return {2, {}, {}, {}};
         const Columns<double> a = stress(j);
-        return {1, real(a.x), real(a.y), real(a.z)};
+        if constexpr (with_walls)
+            return {1, real(a.x), real(a.y), real(a.z)};
+        else
+            return {{}, real(a.x), real(a.y), real(a.z)};
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
         const VectorLanes& n = pair.volume_gradient;
-        sum.own += Lanes(j.own) * n;
+        if constexpr (with_walls)
+            sum.own += Lanes(j.own) * n;
+        else
+            sum.own += n;
         sum.others += n.x * broadcast(j.x); // one by one: each goes into the sum as it is multiplied
         sum.others += n.y * broadcast(j.y);
         sum.others += n.z * broadcast(j.z);
@@ -117,6 +127,7 @@ struct ViscousTraction
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const VectorLanes& n = sum.own;
+        if (own_sum) store_lanes(*own_sum, cluster.first, mobility.moving_in(cluster), n);
         const Columns<Lanes> a = stress_in(cluster);
         const Lanes weight = Lanes(viscosity) * lanes(volume, cluster.first);
         store_lanes(force, cluster.first, mobility.moving_in(cluster),

@@ -47,14 +47,7 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     const auto velocity = [](const Vector& p) { return Vector{std::sin(p.z), 0.0, std::cos(0.5 * p.x)}; };
     for (Index i = 0; i < particles.count(); ++i)
         particles.velocity.set(i, velocity(particles.position[i]));
-    block.run(Continuity{{block.mobility},
-                         particles.density,
-                         particles.velocity,
-                         VelocityGradientFields::register_in(particles),
-                         nullptr,
-                         rate,
-                         particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"}),
-                         nullptr});
+    block.run(Continuity{{block.mobility}, particles.density, particles.velocity, rate});
     // Σ_j m_j W_ij a moment earlier and later.
     const double moment = 1e-5;
     const auto packing = [&](Index i, double time) {
@@ -68,6 +61,16 @@ TEST_P(FlowModels, DensityFollowsThePacking)
     };
     for (Index i = 0; i < particles.count(); ++i)
         EXPECT_NEAR(rate[i], (packing(i, moment) - packing(i, -moment)) / (2.0 * moment), 1e-7);
+    // The sums of the gradient of velocity hold the same.
+    ScalarField& trace = particles.add_scalar({"trace", "kg/(m3 s)"});
+    block.run(VelocityGradient{{block.mobility},
+                               particles.velocity,
+                               block.correction,
+                               VelocityGradientFields::register_in(particles),
+                               &trace,
+                               &particles.density});
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_NEAR(trace[i], rate[i], 1e-13);
 }
 
 TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeavesDensityAlone)
@@ -75,18 +78,17 @@ TEST_P(FlowModels, AtTheSurfaceThatBearsACarriedLoadStrainWithoutDivergenceLeave
     Block block(GetParam(), 12, 0.25);
     Particles& particles = block.particles;
     ScalarField& rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
-    ScalarField& by_walls = particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"});
     ScalarField& delta = particles.add_scalar({"delta", "1/m"});
-    const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
+    ScalarField& replaced = particles.add_scalar({"replaced", "kg/(m3 s)"});
     const auto greatest_rate = [&](double expansion, const ScalarField* surface_delta) {
         for (Index i = 0; i < particles.count(); ++i) {
             const Vector p = particles.position[i];
             particles.velocity.set(i, {(1.0 + expansion) * p.x, 0.0, -p.z});
             delta[i] = 1.0;
         }
-        block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
-        block.run(Continuity{
-            {block.mobility}, particles.density, particles.velocity, gradient, surface_delta, rate, by_walls, nullptr});
+        block.run(Continuity{{block.mobility}, particles.density, particles.velocity, rate});
+        block.run(ContinuityOfBand{
+            {block.mobility}, particles.density, particles.velocity, block.correction, surface_delta, rate, &replaced});
         double greatest = 0.0;
         for (Index i = 0; i < particles.count(); ++i)
             greatest = std::max(greatest, std::abs(rate[i] + expansion * particles.density[i]));
@@ -188,7 +190,6 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
     Particles& particles = block.particles;
     VectorField& pressure_force = particles.add_vector({"pressure_force", "N"});
     VectorField& viscous_force = particles.add_vector({"viscous_force", "N"});
-    const VelocityGradientFields velocity_gradient = VelocityGradientFields::register_in(particles);
     VectorField& wall_force = particles.add_vector({"wall_force", "N"});
     ScalarField& density_rate = particles.add_scalar({"density_rate", "kg/(m3 s)"});
     ScalarField& by_walls = particles.add_scalar({"density_rate_by_walls", "kg/(m3 s)"});
@@ -206,14 +207,8 @@ TEST_P(FlowModels, PressureGivesWhatCompressionTakesBesideThePowerOfWalls)
                                       pressure_force,
                                       viscous_force,
                                       wall_force});
-        block.run(Continuity{{block.mobility},
-                             particles.density,
-                             particles.velocity,
-                             velocity_gradient,
-                             nullptr,
-                             density_rate,
-                             by_walls,
-                             nullptr});
+        block.run(Continuity{{block.mobility}, particles.density, particles.velocity, density_rate});
+        block.run(ContinuityByWalls{{block.mobility}, particles.density, particles.velocity, by_walls});
         double sum = 0.0, walls = 0.0;
         for (Index i = 0; i < particles.count(); ++i) {
             if (block.mobility[i] == 0.0) continue;
@@ -547,10 +542,12 @@ TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 1.0, pressure_force, force, wall_force});
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force});
+    VectorField& own_sum = particles.add_vector({"own_sum", "1/m"});
+    block.run(ViscousTraction{
+        {block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force, &own_sum});
     std::fill(share.values.begin(), share.values.end(), SurfaceStressShare::wanted);
     block.run(SurfaceStressShare{
-        {block.mobility}, block.correction, surface, block.kernel.smoothing_length(), share, direction});
+        {block.mobility}, block.correction, own_sum, surface, block.kernel.smoothing_length(), share, direction});
     double column = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector offset = particles.position[i] - middle;
