@@ -86,8 +86,9 @@ class Job:
                 result = results.read_result(self.place)
                 if result["status"] == "completed":
                     return "result"
-                # A stopped run would stop again: start it afresh. One that failed (a full disk, a kill) goes on.
-                if result["status"] != "failed":
+                # A stopped run would stop again: start it afresh. One that failed (a full disk, a kill) goes on, and so
+                # does one that was refused (a powder bed that was not there) if it had come as far as a checkpoint.
+                if result["status"] not in ("failed", "refused"):
                     return "other"
             elif (folder / "run.json").exists() and results.read_json(folder / "run.json").get("status") == "completed":
                 return "run"

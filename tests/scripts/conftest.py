@@ -57,6 +57,10 @@ if behaviour == "full" and not resume:
     leave_checkpoint()
     print("cupel_sph: fields_000007.vtp: cannot be written: the disk is full; free some space, then go on with --resume", file=sys.stderr)
     sys.exit(1)
+if behaviour == "missing" and not resume:
+    leave_checkpoint()
+    print("cupel_sph: case.json: bodies[1].file: there is no bed bed_seed1.csv; make it with: ./cupel bed odd_drop", file=sys.stderr)
+    sys.exit(2)
 while behaviour == "vanish":
     if not folder.exists():
         print(f"cupel_sph: {{folder}}/history.csv: cannot be written: the folder or file is not there", file=sys.stderr)

@@ -133,6 +133,16 @@ def test_a_run_whose_disk_was_full_says_so_and_goes_on_from_its_checkpoint(run_c
     assert json.loads((run_case.folder / "result.json").read_text())["status"] == "completed"
 
 
+def test_a_run_that_was_refused_on_its_way_goes_on_from_its_checkpoint(run_case):
+    done = run_case("--set", "behaviour=missing")
+    assert done.returncode == 1 and "there is no bed bed_seed1.csv" in done.stderr
+    assert json.loads((run_case.folder / "result.json").read_text())["status"] == "refused"
+
+    done = run_case("--set", "behaviour=missing", "--resume")
+    assert done.returncode == 0, done.stderr
+    assert (run_case.folder / "started.txt").read_text().split() == ["fresh", "resumed"]
+
+
 def test_a_failed_run_without_a_checkpoint_is_started_afresh(run_case):
     assert run_case("--set", "behaviour=crash").returncode == 1
     assert run_case("--set", "behaviour=crash", "--resume").returncode == 1
