@@ -23,44 +23,13 @@ template <class Field> Field& get(const std::vector<std::unique_ptr<Field>>& fie
     throw std::logic_error("no particle field '" + std::string(name) + "' is registered in this scene");
 }
 
-/// What keeps its neighbours in a new order.
-struct Run
+void permute_array(Array& values, Array& scratch, std::span<const Index> order)
 {
-    std::size_t from, to, count;
-};
-
-/// Empty where nothing moves.
-std::vector<Run> runs_of(std::span<const Index> order)
-{
-    std::vector<Run> runs;
-    for (std::size_t k = 0; k < order.size();) {
-        const auto from = static_cast<std::size_t>(order[k]);
-        std::size_t count = 1;
-        while (k + count < order.size() && static_cast<std::size_t>(order[k + count]) == from + count)
-            ++count;
-        runs.push_back({from, k, count});
-        k += count;
-    }
-    if (runs.size() == 1 && runs.front().from == 0) runs.clear();
-    return runs;
-}
-
-/// Liquid that flows slowly has moved by whole stretches since it was last sorted, which are copied as such.
-void permute_array(Array& values, Array& scratch, std::span<const Index> order, std::span<const Run> runs)
-{
-    constexpr std::size_t worth_copying = 16; // values on the average
     const std::size_t count = order.size();
     scratch.resize(values.size());
-    if (worth_copying * runs.size() < count) {
 #pragma omp parallel for schedule(static) if (count > 8192)
-        for (std::size_t k = 0; k < runs.size(); ++k)
-            std::copy_n(values.data() + runs[k].from, runs[k].count, scratch.data() + runs[k].to);
-    }
-    else {
-#pragma omp parallel for schedule(static) if (count > 8192)
-        for (std::size_t k = 0; k < count; ++k)
-            scratch[k] = values[static_cast<std::size_t>(order[k])];
-    }
+    for (std::size_t k = 0; k < count; ++k)
+        scratch[k] = values[static_cast<std::size_t>(order[k])];
     std::copy(values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
               scratch.begin() + static_cast<std::ptrdiff_t>(count));
     values.swap(scratch);
@@ -141,13 +110,11 @@ const VectorField& Particles::vector(std::string_view name) const
 
 void Particles::permute(std::span<const Index> order)
 {
-    const std::vector<Run> runs = runs_of(order);
-    if (runs.empty()) return;
     for (const auto& field : scalars_)
-        permute_array(field->values, scratch_, order, runs);
+        permute_array(field->values, scratch_, order);
     for (const auto& field : vectors_)
         for (Array* component : {&field->x, &field->y, &field->z})
-            permute_array(*component, scratch_, order, runs);
+            permute_array(*component, scratch_, order);
     permute_vector(kind, scratch_, order);
     permute_vector(material, scratch_, order);
     permute_vector(identity, scratch_, order);
