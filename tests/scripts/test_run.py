@@ -122,25 +122,19 @@ def test_killing_the_command_line_lets_solvers_leave_a_checkpoint_and_no_result(
     assert (run_case.results / ".previous" / "odd_drop" / "sph" / "v" / "result.json").exists()
 
 
-def test_a_run_whose_disk_was_full_says_so_and_goes_on_from_its_checkpoint(run_case):
-    done = run_case("--set", "behaviour=full")
-    assert done.returncode == 1 and "the disk is full; free some space, then go on with --resume" in done.stderr
-    assert json.loads((run_case.folder / "result.json").read_text())["status"] == "failed"
+@pytest.mark.parametrize(("behaviour", "line", "status"), [
+    ("full", "the disk is full; free some space, then go on with --resume", "failed"),
+    ("missing", "there is no bed bed_seed1.csv", "refused"),
+])
+def test_a_run_that_could_not_go_on_says_so_and_goes_on_from_its_checkpoint(run_case, behaviour, line, status):
+    done = run_case("--set", f"behaviour={behaviour}")
+    assert done.returncode == 1 and line in done.stderr
+    assert json.loads((run_case.folder / "result.json").read_text())["status"] == status
 
-    done = run_case("--set", "behaviour=full", "--resume")
+    done = run_case("--set", f"behaviour={behaviour}", "--resume")
     assert done.returncode == 0, done.stderr
     assert (run_case.folder / "started.txt").read_text().split() == ["fresh", "resumed"]
     assert json.loads((run_case.folder / "result.json").read_text())["status"] == "completed"
-
-
-def test_a_run_that_was_refused_on_its_way_goes_on_from_its_checkpoint(run_case):
-    done = run_case("--set", "behaviour=missing")
-    assert done.returncode == 1 and "there is no bed bed_seed1.csv" in done.stderr
-    assert json.loads((run_case.folder / "result.json").read_text())["status"] == "refused"
-
-    done = run_case("--set", "behaviour=missing", "--resume")
-    assert done.returncode == 0, done.stderr
-    assert (run_case.folder / "started.txt").read_text().split() == ["fresh", "resumed"]
 
 
 def test_a_failed_run_without_a_checkpoint_is_started_afresh(run_case):
