@@ -39,8 +39,7 @@ std::vector<std::array<double, 3>> disc_on_rings(const Body& disc, double spacin
         for (long m = 0; m < count; ++m) {
             const double angle = turn * (static_cast<double>(m) + 0.5) / static_cast<double>(count) +
                                  golden_angle * static_cast<double>(k);
-            places.push_back(
-                {disc.center[0] + radius * std::cos(angle), 0.0, disc.center[2] + radius * std::sin(angle)});
+            places.push_back({radius * std::cos(angle), 0.0, radius * std::sin(angle)});
         }
     }
     return places;
@@ -83,7 +82,7 @@ std::vector<std::array<double, 3>> ball_on_shells(const Body& ball, double spaci
                 for (std::size_t axis = 1; axis < 3; ++axis)
                     if (std::abs(p[axis]) > std::abs(p[face])) face = axis;
                 const double depth = std::abs(p[face]);
-                std::array<double, 3> place = ball.center;
+                std::array<double, 3> place{};
                 if (depth > 0.0) {
                     const std::size_t one = (face + 1) % 3, other = (face + 2) % 3;
                     const auto cap = on_upper_cap(p[one] / depth, p[other] / depth);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "scene/even_out.hpp"
 #include "scene/free_drop.hpp"
 #include "scene/powder_bed.hpp"
 #include "scene/shape.hpp"
@@ -206,12 +207,15 @@ double place_free_drop(const Case& definition, bool two_phase, double lattice_vo
     const auto volume = volume_in_domain(body, definition.domain, definition.dimensions);
     if (!volume) return lattice_volume;
     if (whole_in_domain(body, definition.domain)) {
-        Placement placement = placements.front();
-        placements.clear();
+        std::vector<Vector> places;
         for (const auto& place : definition.dimensions == 2 ? disc_on_rings(body, definition.spacing)
                                                             : ball_on_shells(body, definition.spacing))
-        {
-            placement.position = to_vector(place);
+            places.push_back(to_vector(place));
+        if (definition.dimensions == 3) even_out(places, body.radius, definition.spacing);
+        Placement placement = placements.front();
+        placements.clear();
+        for (const Vector& place : places) {
+            placement.position = to_vector(body.center) + place;
             placements.push_back(placement);
         }
         return *volume / static_cast<double>(placements.size());

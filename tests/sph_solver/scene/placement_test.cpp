@@ -1,6 +1,8 @@
 /// Where the particles of a case start: displaced by perturbations and waves, jittered, moving.
 #include "scene/place_particles.hpp"
 
+#include "kernels/root_free.hpp"
+#include "scene/free_drop.hpp"
 #include "small_scenes.hpp"
 
 #include <algorithm>
@@ -120,23 +122,20 @@ TEST(Placement, BallInNothingStandsOnShellsAsCubesHaveThem)
     const Scene scene = place_particles(drop(3, 20, std::nullopt));
     ASSERT_EQ(scene.particles->count(), n * n * n);
     const double spacing = std::cbrt(scene.particle_volume);
-    std::vector<int> count(n / 2);
+    int on_outermost = 0;
     Symmetric3<double> moment{};
     for (Index i = 0; i < scene.particles->count(); ++i) {
         const Vector p = scene.particles->position[i];
-        const double shell = 0.5 * (norm(p) * n - 1.0);
-        EXPECT_NEAR(shell, std::round(shell), 1e-9);
-        ++count[static_cast<std::size_t>(std::lround(shell))];
         moment.subtract_product(p, p);
+        EXPECT_LT(norm(p), 1.0 - (1.0 - 1e-9) / n); // none lies further out than the outermost shell
+        if (norm(p) > 1.0 - (1.0 + 1e-9) / n) ++on_outermost;
         double nearest = 1.0;
         for (Index j = 0; j < scene.particles->count(); ++j)
             if (j != i) nearest = std::min(nearest, norm(p - scene.particles->position[j]));
-        // Closest are the eight about the centre, at the corners of a cube in a sphere of the radius R/n.
-        EXPECT_GT(nearest, (1.0 - 1e-9) * 2.0 / std::sqrt(3.0) / n);
+        EXPECT_GT(nearest, 0.7 * spacing); // in the corners of the cubes; where they stood on cubes 0.72
         EXPECT_LT(nearest, 1.05 * spacing);
     }
-    for (int k = 0; k < n / 2; ++k) // what a cube of 2 k + 2 has more than one of 2 k
-        EXPECT_EQ(count[static_cast<std::size_t>(k)], 8 * ((k + 1) * (k + 1) * (k + 1) - k * k * k));
+    EXPECT_EQ(on_outermost, n * n * n - (n - 2) * (n - 2) * (n - 2));
     // The cube's axes are alike.
     EXPECT_NEAR(moment.xy, 0.0, 1e-9);
     EXPECT_NEAR(moment.xx, moment.zz, 1e-9);
@@ -146,16 +145,46 @@ TEST(Placement, BallInNothingStandsOnShellsAsCubesHaveThem)
     EXPECT_NE(place_particles(definition).particles->count(), n * n * n / 2);
 }
 
+TEST(Placement, BallInNothingIsEvenThroughout)
+{
+    for (const int n : {15, 20}) {
+        Case definition = drop(3, n, std::nullopt);
+        const RootFree kernel(definition.spacing, 3);
+        const auto unevenness = [&](const std::vector<Vector>& places) {
+            const double volume = 4.0 / 3.0 * std::numbers::pi / static_cast<double>(places.size());
+            double most = 0.0;
+            for (const Vector& p : places) {
+                if (norm(p) > 1.0 - kernel.support()) continue; // sees beyond the surface
+                double sum = 0.0;
+                for (const Vector& q : places)
+                    sum += volume * kernel(norm(p - q)).value;
+                most = std::max(most, std::abs(sum - 1.0));
+            }
+            return most;
+        };
+        std::vector<Vector> shells, evened;
+        for (const auto& place : ball_on_shells(definition.bodies.front(), definition.spacing))
+            shells.push_back({place[0], place[1], place[2]});
+        const Scene scene = place_particles(definition);
+        for (Index i = 0; i < scene.particles->count(); ++i)
+            evened.push_back(scene.particles->position[i]);
+        EXPECT_GT(unevenness(shells), 0.1);
+        EXPECT_LT(unevenness(evened), 0.02);
+    }
+}
+
 TEST(Placement, BallOnShellsKeepsVolumes)
 {
     // A cap of height h holds π h² (R − h/3), however it lies: on a face, on an edge and on a corner of the cube.
-    const Scene scene = place_particles(drop(3, 60, std::nullopt));
+    const Case definition = drop(3, 60, std::nullopt);
+    const auto places = ball_on_shells(definition.bodies.front(), definition.spacing);
+    const double volume_of_each = 4.0 / 3.0 * std::numbers::pi / static_cast<double>(places.size());
     for (const Vector direction :
          {Vector{0, 0, 1}, Vector{0.8, 0, 0.6}, Vector{1 / std::sqrt(3), 1 / std::sqrt(3), 1 / std::sqrt(3)}})
         for (const double height : {0.4, 0.7, 1.0}) {
             double volume = 0.0;
-            for (Index i = 0; i < scene.particles->count(); ++i)
-                if (dot(scene.particles->position[i], direction) > 1.0 - height) volume += scene.particle_volume;
+            for (const auto& [x, y, z] : places)
+                if (dot(Vector{x, y, z}, direction) > 1.0 - height) volume += volume_of_each;
             EXPECT_NEAR(volume, std::numbers::pi * height * height * (1.0 - height / 3.0), 0.03 * volume);
         }
 }
