@@ -83,6 +83,7 @@ public:
     }
 
     const VectorField& acceleration() const { return acceleration_; }
+    Vector pressure_force(Index i) const { return pressure_force_[i]; } ///< N
     /// Of it, what sound is made of: pressure, and gravity, which pressure bears.
     Vector acceleration_by_sound(Index i) const { return (1.0 / particles_.mass[i]) * pressure_force_[i] + gravity_; }
     /// Of it, what acts as an impulse at the ends of a step within which sound is followed: viscosity, Marangoni

@@ -62,30 +62,7 @@ Simulation::Simulation(Scene scene)
         mobility_[i] = has_flow_ && particles.kind[static_cast<std::size_t>(i)] == Kind::fluid ? 1.0 : 0.0;
     if (!has_flow_) return;
     flow_ = make_flow(scene_, parameters_, mobility_);
-    const bool walled = particles.has("wall_normal");
-    bool open = false;
-    const auto reach = [&](std::size_t side) {
-        const auto& boundary = scene_.definition.domain.boundaries[side];
-        const bool stops = !boundary || boundary->kind == BoundaryKind::periodic ||
-                           boundary->kind == BoundaryKind::symmetry || (walled && boundary->kind == BoundaryKind::wall);
-        open = open || !stops;
-        return stops ? no_limit : scene_.spacing;
-    };
-    const auto& lower = scene_.definition.domain.lower;
-    const auto& upper = scene_.definition.domain.upper;
-    lower_ = {lower[0] - reach(0), lower[1] - reach(2), lower[2] - reach(4)};
-    upper_ = {upper[0] + reach(1), upper[1] + reach(3), upper[2] + reach(5)};
-    const auto wall = [&](std::size_t side) {
-        const auto& boundary = scene_.definition.domain.boundaries[side];
-        const bool holds =
-            boundary && ((walled && boundary->kind == BoundaryKind::wall) || boundary->kind == BoundaryKind::symmetry);
-        return holds ? 0.1 * scene_.spacing : -no_limit;
-    };
-    wall_lower_ = {lower[0] + wall(0), lower[1] + wall(2), lower[2] + wall(4)};
-    wall_upper_ = {upper[0] - wall(1), upper[1] - wall(3), upper[2] - wall(5)};
-    for (const double x : {wall_lower_.x, wall_lower_.y, wall_lower_.z, wall_upper_.x, wall_upper_.y, wall_upper_.z})
-        has_walls_ = has_walls_ || std::isfinite(x);
-    if (open) escaped_ = &particles.add_scalar({"escaped", "1"});
+    set_bounds();
 }
 
 void Simulation::start()
@@ -212,64 +189,6 @@ double Simulation::energy_of_what_stops(Index i) const
     return particles.mass[i] * (0.5 * dot(v, v) + flow_->elastic_energy(i));
 }
 
-bool Simulation::outside(const Vector& p) const
-{
-    return p.x < lower_.x || p.x > upper_.x || p.y < lower_.y || p.y > upper_.y || p.z < lower_.z || p.z > upper_.z;
-}
-
-/// A wall's extrapolated pressure (or a mirror's image) repels liquid, but not a single particle that creeps along it
-/// at no pressure at all: such a one is stopped a tenth of a spacing before the wall.
-void Simulation::hold_before_walls()
-{
-    Particles& particles = *scene_.particles;
-    const auto hold = [](double& x, double& v, double least, double most) {
-        const double before = v;
-        if (x < least) {
-            x = least;
-            v = std::max(v, 0.0);
-        }
-        if (x > most) {
-            x = most;
-            v = std::min(v, 0.0);
-        }
-        return v * v - before * before;
-    };
-    flow_->books().stops += sum_over_moving([&](Index i) {
-        const auto k = static_cast<std::size_t>(i);
-        return 0.5 * particles.mass[i] *
-               (hold(particles.position.x[k], particles.velocity.x[k], wall_lower_.x, wall_upper_.x) +
-                hold(particles.position.y[k], particles.velocity.y[k], wall_lower_.y, wall_upper_.y) +
-                hold(particles.position.z[k], particles.velocity.z[k], wall_lower_.z, wall_upper_.z));
-    });
-}
-
-/// What has flown out through a side without a wall stops there: it takes no further part in the flow. Its mass and
-/// energy stay in the books.
-void Simulation::retire_escaped()
-{
-    if (!escaped_) return;
-    Particles& particles = *scene_.particles;
-    bool changed = false;
-    for (const Index i : neighbourhood_.moving_particles())
-        if (outside(particles.position[i])) {
-            (*escaped_)[i] = 1.0;
-            flow_->books().stops -= energy_of_what_stops(i);
-            mobility_[i] = 0.0;
-            particles.kind[static_cast<std::size_t>(i)] = Kind::solid;
-            particles.velocity.set(i, {});
-            flow_->reset(i);
-            changed = true;
-        }
-    if (changed) neighbourhood_.classify(particles, mobility_);
-}
-
-double Simulation::escaped_mass() const
-{
-    if (!escaped_) return 0.0;
-    const Particles& particles = *scene_.particles;
-    return ordered_sum(particles.count(), [&](Index i) { return (*escaped_)[i] * particles.mass[i]; });
-}
-
 void Simulation::advance_flow(double time_step)
 {
     const double whole = time_step, sound = time_step / substeps_;
@@ -277,13 +196,13 @@ void Simulation::advance_flow(double time_step)
     for (int k = 1; k < substeps_; ++k) {
         const SoundStep step = SoundStep::of(k, substeps_, whole);
         const double before = sound * drift_before_densities(k, substeps_);
-        move(before);
+        move(before, 0.5 * sound);
         flow_->find_densities(neighbourhood_, step);
-        move(sound - before);
+        move(sound - before, -0.5 * sound);
         flow_->evaluate_sound(neighbourhood_, step);
         kick({sound, 0.0, sound}, 0.5);
     }
-    move(sound);
+    move(sound, 0.5 * sound);
     if (frozen_temperature_) set_frozen_temperature();
     flow_->evaluate(neighbourhood_, whole);
     kick({0.5 * sound, 0.5 * whole, 0.5 * whole, 0.5 * (sound - whole)}, 0.0);
@@ -293,11 +212,11 @@ void Simulation::advance_flow(double time_step)
     updates_ += static_cast<std::uint64_t>(substeps_) * neighbourhood_.moving_particles().size();
 }
 
-void Simulation::move(double time_step)
+void Simulation::move(double time_step, double unanswered)
 {
     if (time_step == 0.0) return;
     flow_->drift(neighbourhood_, time_step);
-    if (has_walls_) hold_before_walls();
+    if (has_walls_) hold_before_walls(unanswered);
     neighbourhood_.update(*scene_.particles, mobility_);
 }
 

@@ -66,6 +66,7 @@ public:
     const std::map<std::string, std::uint64_t>& binding_limits() const { return binding_; }
 
 private:
+    void set_bounds();
     void set_frozen_temperature();
     double choose_time_step(double longest);
     int most_steps_of_sound() const;
@@ -73,7 +74,8 @@ private:
     /// Longest step that the accelerations of what moves allow, s.
     template <class Acceleration> double force_limit(const Acceleration& acceleration_of) const;
     void advance_flow(double time_step);
-    void move(double time_step);
+    /// `unanswered`, s: how long no compression answers what pressure does to a motion that a wall stops.
+    void move(double time_step, double unanswered);
     void mark_what_moved();
     void advance_heat(double until);
     void melt_and_solidify();
@@ -82,7 +84,7 @@ private:
     void kick(const KickTimes& times, double with_new_velocity);
     double energy_of_what_stops(Index i) const;
     void retire_escaped();
-    void hold_before_walls();
+    void hold_before_walls(double unanswered);
     bool outside(const Vector& position) const;
     template <class Value> auto sum_over_moving(const Value& value) const
     {

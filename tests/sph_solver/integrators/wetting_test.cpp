@@ -57,6 +57,26 @@ TEST_P(Wetting, WallsContinueAnOverhangAsItsCircle)
     EXPECT_LT(std::sqrt(square / seen), 0.35);
 }
 
+TEST(Wetting, BooksCloseWhereWallsHoldTheEdgeOfADrop)
+{
+    // What pressure does to a particle that a wall holds is no compression's work.
+    Case definition = drop_on_a_wall(std::numbers::pi / 6.0);
+    definition.domain.lower = {-0.5, 0, 0};
+    definition.domain.upper = {2.5, 0, 1};
+    definition.numerics.reference_speed = 6.0; // no density is cut off
+    definition.materials.at("liquid").viscosity = 0.01;
+    Simulation simulation(place_particles(definition));
+    simulation.start();
+    while (simulation.time() < 0.5)
+        simulation.step(0.5 - simulation.time());
+    const MechanicalWork& work = simulation.flow()->books();
+    const Ledger ledger = simulation.mechanical_ledger();
+    EXPECT_EQ(work.limiter, 0.0);
+    EXPECT_LT(work.stops, -0.001 * ledger.in);
+    // Left without an answer, what pressure gave would be three quarters of that.
+    EXPECT_LT(std::abs(ledger.end - ledger.start - ledger.in + ledger.out), 0.3 * std::abs(work.stops));
+}
+
 class TwoPhaseWetting : public testing::TestWithParam<double>
 {};
 INSTANTIATE_TEST_SUITE_P(Angles, TwoPhaseWetting, testing::Values(60.0, 75.0, 90.0, 105.0));
