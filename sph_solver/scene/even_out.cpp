@@ -18,7 +18,7 @@ namespace cupel
 namespace
 {
 
-/// Neighbours of each place within a distance, itself left out.
+/// Neighbours of each of the first places within a distance: those that come after it.
 std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Vector>& places, std::size_t count,
                                                     double distance)
 {
@@ -37,7 +37,7 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Vector>& p
         const double place[3]{places[i].x, places[i].y, places[i].z};
         locator->FindPointsWithinRadius(distance, place, found);
         for (vtkIdType k = 0; k < found->GetNumberOfIds(); ++k)
-            if (const auto j = static_cast<std::size_t>(found->GetId(k)); j != i) neighbours[i].push_back(j);
+            if (const auto j = static_cast<std::size_t>(found->GetId(k)); j > i) neighbours[i].push_back(j);
         std::sort(neighbours[i].begin(), neighbours[i].end()); // sums are the same whatever the search
     }
     return neighbours;
@@ -89,11 +89,12 @@ private:
 
 void even_out(std::vector<Vector>& places, double radius, double spacing)
 {
-    constexpr int sweeps = 60;
+    constexpr int searches = 3, sweeps_between = 50;
     constexpr double rate = 0.1, greatest_move = 0.1;
     const std::size_t count = places.size();
     const RootFree kernel(spacing, 3);
     const auto formula = kernel.in<double>();
+    const double near = std::pow(0.2, 0.25) / kernel(spacing).value;
     double outermost = 0.0;
     for (const Vector& place : places)
         outermost = std::max(outermost, norm(place));
@@ -101,25 +102,32 @@ void even_out(std::vector<Vector>& places, double radius, double spacing)
     for (std::size_t i = 0; i < count; ++i)
         if (norm(places[i]) > outermost * (1.0 - 1e-9)) on_surface.push_back(i);
 
-    // What comes into reach is listed from the start: no place moves by more than a sixth of a spacing.
-    const double reach = kernel.support() + spacing / 3.0;
-    WithImages liquid(places, radius, reach);
-    const auto neighbours = neighbours_of(liquid.places(), count, reach);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vector place = liquid.places()[i];
-            Vector gradient{};
-            for (const std::size_t j : neighbours[i]) {
-                const Vector offset = place - liquid.places()[j];
-                gradient += (liquid.volumes()[j] * formula(dot(offset, offset)).gradient_over_r) * offset;
+    std::vector<Vector> gradients(count); // Σ [1 + …] V ∇W, 1/m
+    // Between two searches no place moves by more than a quarter of a spacing.
+    const double reach = kernel.support() + 0.5 * spacing;
+    for (int search = 0; search < searches; ++search) {
+        WithImages liquid(places, radius, reach);
+        const auto neighbours = neighbours_of(liquid.places(), count, reach);
+        for (int sweep = 0; sweep < sweeps_between; ++sweep) {
+            std::fill(gradients.begin(), gradients.end(), Vector{});
+            for (std::size_t i = 0; i < count; ++i)
+                for (const std::size_t j : neighbours[i]) {
+                    const Vector offset = liquid.places()[i] - liquid.places()[j];
+                    const auto [value, gradient_over_r] = formula(dot(offset, offset));
+                    const double closeness = near * value, square = closeness * closeness;
+                    const Vector of_pair = ((1.0 + square * square) * gradient_over_r) * offset;
+                    gradients[i] += liquid.volumes()[j] * of_pair;
+                    if (j < count) gradients[j] -= liquid.volumes()[i] * of_pair;
+                }
+            for (std::size_t i = 0; i < count; ++i) {
+                const Vector move = (-rate * spacing * spacing) * gradients[i];
+                const double length = norm(move), greatest = greatest_move * spacing;
+                places[i] += length > greatest ? (greatest / length) * move : move;
             }
-            const Vector move = (-rate * spacing * spacing) * gradient;
-            const double length = norm(move), greatest = greatest_move * spacing;
-            places[i] = place + (length > greatest ? (greatest / length) * move : move);
+            for (const std::size_t i : on_surface)
+                places[i] = (outermost / norm(places[i])) * places[i];
+            liquid.move_to(places);
         }
-        for (const std::size_t i : on_surface)
-            places[i] = (outermost / norm(places[i])) * places[i];
-        liquid.move_to(places);
     }
 }
 

@@ -68,31 +68,33 @@ std::array<double, 3> on_upper_cap(double x, double y)
 
 std::vector<std::array<double, 3>> ball_on_shells(const Body& ball, double spacing)
 {
-    const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(ball.radius, 3);
-    const auto count = std::max(1L, std::lround(std::cbrt(volume) / spacing));
+    const auto shells = static_cast<std::size_t>(std::max(1L, std::lround(ball.radius / spacing)));
+    std::vector<long> across(shells); // a face of the shell's cube
+    std::vector<double> inside(shells + 1, 0.0);
+    for (std::size_t k = 0; k < shells; ++k) {
+        const double edge = std::sqrt(4.0 * std::numbers::pi / 6.0) * (static_cast<double>(k) + 0.5);
+        across[k] = std::max(1L, std::lround(edge));
+        inside[k + 1] = inside[k] + static_cast<double>(across[k] * across[k]);
+    }
     std::vector<std::array<double, 3>> places;
-    for (long i = 0; i < count; ++i)
-        for (long j = 0; j < count; ++j)
-            for (long k = 0; k < count; ++k) {
-                const auto along = [&](long index) {
-                    return (2.0 * static_cast<double>(index) + 1.0) / static_cast<double>(count) - 1.0;
-                };
-                const std::array<double, 3> p{along(i), along(j), along(k)};
-                std::size_t face = 0;
-                for (std::size_t axis = 1; axis < 3; ++axis)
-                    if (std::abs(p[axis]) > std::abs(p[face])) face = axis;
-                const double depth = std::abs(p[face]);
-                std::array<double, 3> place{};
-                if (depth > 0.0) {
-                    const std::size_t one = (face + 1) % 3, other = (face + 2) % 3;
-                    const auto cap = on_upper_cap(p[one] / depth, p[other] / depth);
-                    const double radius = ball.radius * depth;
-                    place[one] += radius * cap[0];
-                    place[other] += radius * cap[1];
-                    place[face] += std::copysign(radius, p[face]) * cap[2];
-                }
-                places.push_back(place);
-            }
+    for (std::size_t k = 0; k < shells; ++k) {
+        const auto surface_of = [&](double part) { return ball.radius * std::cbrt(part / inside.back()); };
+        const double radius = 0.5 * (surface_of(inside[k]) + surface_of(inside[k + 1]));
+        const auto along = [&](long index) {
+            return (2.0 * static_cast<double>(index) + 1.0) / static_cast<double>(across[k]) - 1.0;
+        };
+        for (std::size_t face = 0; face < 3; ++face)
+            for (const double side : {-radius, radius})
+                for (long i = 0; i < across[k]; ++i)
+                    for (long j = 0; j < across[k]; ++j) {
+                        const auto cap = on_upper_cap(along(i), along(j));
+                        std::array<double, 3> place{};
+                        place[face] = side * cap[2];
+                        place[(face + 1) % 3] = radius * cap[0];
+                        place[(face + 2) % 3] = radius * cap[1];
+                        places.push_back(place);
+                    }
+    }
     return places;
 }
 

@@ -22,12 +22,12 @@ bool whole_in_domain(const Body& ball, const Domain& domain);
 /// neighbours. A disc cut from a lattice has an edge of steps, and what surface tension makes of them outlasts the run.
 std::vector<std::array<double, 3>> disc_on_rings(const Body& disc, double spacing);
 
-/// Places of a ball's particles about its centre, m: a cube's lattice of n³ points, n = ∛(V/Δx³) rounded, each of them
-/// taken to the ball by a map that keeps volumes. Cubes about the centre become spheres, by the map of Roşca & Plonka
-/// (2011, "Uniform spherical grids via equal area projection from the cube to the sphere") that keeps areas, so that
-/// the outermost particles all lie as deep below the surface, (1/n) R, and rows of one shell go on in the next. Shells
-/// are 1.24 of a particle's size ∛(V/n³) apart, particles on them 0.90. A ball cut from a lattice has a surface of
-/// steps; shells of Fibonacci points are out of line with each other, which is worse.
+/// Places of a ball's particles about its centre, m, on R/Δx shells, each of 6 m² points: the lattice of a cube's
+/// faces, taken to the sphere by the map of Roşca & Plonka (2011, "Uniform spherical grids via equal area projection
+/// from the cube to the sphere") that keeps areas. m is √(4π/6) (k + ½), rounded, which leaves Δx between particles, as
+/// between shells; each shell lies in the middle of the volume of its own. The outermost particles all lie as deep
+/// below the surface: a ball cut from a lattice has a surface of steps. Rows of one shell do not go on in the next,
+/// which even_out() makes up for.
 std::vector<std::array<double, 3>> ball_on_shells(const Body& ball, double spacing);
 
 } // namespace cupel
