@@ -89,7 +89,7 @@ private:
 
 void even_out(std::vector<Vector>& places, double radius, double spacing)
 {
-    constexpr int searches = 3, sweeps_between = 50;
+    constexpr int searches = 6, sweeps_between = 50;
     constexpr double rate = 0.1, greatest_move = 0.1;
     const std::size_t count = places.size();
     const RootFree kernel(spacing, 3);

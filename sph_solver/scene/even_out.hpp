@@ -8,7 +8,7 @@ namespace cupel
 {
 
 /// Moves the places of a ball's particles, m, about its centre as shifting does in a flow (shifting.hpp; Lind et al.
-/// 2012, Sun et al. 2017), in 150 sweeps with the kernel without roots, h = Δx:
+/// 2012, Sun et al. 2017), in 300 sweeps with the kernel without roots, h = Δx:
 ///
 ///   δx_i = −0.1 Δx² Σ_j [1 + 0.2 (W_ij/W(Δx))⁴] V_j ∇W_ij,   |δx_i| ≤ 0.1 Δx
 ///
