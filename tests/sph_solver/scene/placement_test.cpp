@@ -147,7 +147,7 @@ TEST(Placement, BallInNothingStandsOnShellsASpacingApart)
     EXPECT_NE(place_particles(definition).particles->count(), 3 * all);
 }
 
-TEST(Placement, BallInNothingHasLittleLeftForShiftingToDo)
+TEST(Placement, ShiftingWouldMoveABallInNothingByLittle)
 {
     for (const int n : {15, 20}) {
         const Case definition = drop(3, n, std::nullopt);
