@@ -10,29 +10,68 @@ namespace cupel::inline CUPEL_ENGINE
 namespace
 {
 
-/// Sets that are united two by two (union-find with path halving). A set is named by its least member.
+/// Sets that are united two by two (union-find with path halving), each named by its least member. A member may belong
+/// to the others as its image beyond a period: `offset` takes it there.
 class DisjointSets
 {
 public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+    struct Member
+    {
+        Index name;
+        Vector offset; ///< added to its place, puts it beside the set's least member, m
+    };
 
-    Index name(Index member)
+    DisjointSets(std::size_t count, double reach) : parent_(count), offset_(count), endless_(count, 0), reach_(reach)
     {
-        while (parent(member) != member)
-            member = parent(member) = parent(parent(member));
-        return member;
+        std::iota(parent_.begin(), parent_.end(), Index{0});
     }
-    void unite(Index a, Index b)
+
+    Member find(Index member)
     {
-        a = name(a);
-        b = name(b);
-        parent(std::max(a, b)) = std::min(a, b);
+        Vector offset{};
+        while (parent(member) != member) {
+            offset_of(member) += offset_of(parent(member));
+            parent(member) = parent(parent(member));
+            offset += offset_of(member);
+            member = parent(member);
+        }
+        return {member, offset};
     }
+    /// Unites the sets of a and of b's image at b + shift.
+    void unite(Index a, Index b, const Vector& shift)
+    {
+        const Member one = find(a), other = find(b);
+        const Vector apart = one.offset + shift - other.offset;
+        const auto least = static_cast<std::size_t>(std::min(one.name, other.name));
+        if (one.name == other.name)
+            endless_[least] |= is_period(apart);
+        else {
+            endless_[least] |= endless_[static_cast<std::size_t>(std::max(one.name, other.name))];
+            const bool first = one.name < other.name;
+            parent(first ? other.name : one.name) = std::min(one.name, other.name);
+            offset_of(first ? other.name : one.name) = first ? apart : -1.0 * apart;
+        }
+    }
+    /// Whether it is known already that a and b's image at b + shift belong together.
+    bool are_together(Index a, Index b, const Vector& shift)
+    {
+        const Member one = find(a), other = find(b);
+        return one.name == other.name && !is_period(one.offset + shift - other.offset);
+    }
+    /// Whether a set has a member and its image.
+    bool is_endless(Index name) const { return endless_[static_cast<std::size_t>(name)] != 0; }
 
 private:
+    /// Sums of periods are none to round-off, or as long as a domain.
+    bool is_period(const Vector& sum) const { return std::abs(sum.x) + std::abs(sum.y) + std::abs(sum.z) > reach_; }
+
     Index& parent(Index member) { return parent_[static_cast<std::size_t>(member)]; }
+    Vector& offset_of(Index member) { return offset_[static_cast<std::size_t>(member)]; }
 
     std::vector<Index> parent_;
+    std::vector<Vector> offset_; ///< to the parent
+    std::vector<unsigned char> endless_;
+    double reach_; ///< of lists, m: shorter than any period
 };
 
 double square(const Vector& v)
@@ -42,8 +81,8 @@ double square(const Vector& v)
 
 } // namespace
 
-const std::vector<std::vector<Index>>& FreeBodies::find(const Neighbourhood& neighbourhood, const Particles& particles,
-                                                        const ScalarField& mobility)
+const std::vector<FreeBody>& FreeBodies::find(const Neighbourhood& neighbourhood, const Particles& particles,
+                                              const ScalarField& mobility)
 {
     if (found_for_ == neighbourhood.version()) return bodies_;
     found_for_ = neighbourhood.version();
@@ -53,7 +92,7 @@ const std::vector<std::vector<Index>>& FreeBodies::find(const Neighbourhood& nei
     // What is nearer than this may come within the kernel's support before lists are next renewed.
     const double near = std::pow(list.support() + list.skin(), 2), touching = std::pow(list.support(), 2);
     const auto count = static_cast<std::size_t>(particles.count());
-    DisjointSets bodies(count);
+    DisjointSets bodies(count, list.support() + list.skin());
     std::vector<unsigned char> touches(count, 0);
 
     std::vector<Index> members;
@@ -65,12 +104,13 @@ const std::vector<std::vector<Index>>& FreeBodies::find(const Neighbourhood& nei
         // A cluster may hold parts of several bodies, one above the other.
         for (std::size_t k = 1; k < members.size(); ++k)
             if (square(position[members[k]] - position[members[k - 1]]) < near)
-                bodies.unite(members[k], members[k - 1]);
+                bodies.unite(members[k], members[k - 1], {});
         const auto meet = [&](Index j, const Vector& place, bool is_liquid) {
+            const Vector shift = place - position[j];
             for (const Index i : members) {
-                if (is_liquid && bodies.name(i) == bodies.name(j)) continue;
+                if (is_liquid && bodies.are_together(i, j, shift)) continue;
                 const double distance = square(position[i] - place);
-                if (is_liquid && distance < near) bodies.unite(i, j);
+                if (is_liquid && distance < near) bodies.unite(i, j, shift);
                 if (!is_liquid && distance < touching) touches[static_cast<std::size_t>(i)] = 1;
             }
         };
@@ -83,18 +123,21 @@ const std::vector<std::vector<Index>>& FreeBodies::find(const Neighbourhood& nei
     }
     std::vector<unsigned char> body_touches(count, 0);
     for (const Index i : neighbourhood.moving_particles())
-        body_touches[static_cast<std::size_t>(bodies.name(i))] |= touches[static_cast<std::size_t>(i)];
+        body_touches[static_cast<std::size_t>(bodies.find(i).name)] |= touches[static_cast<std::size_t>(i)];
 
     bodies_.clear();
     std::vector<Index> number(count, -1);
     for (const Index i : neighbourhood.moving_particles()) {
-        const auto name = static_cast<std::size_t>(bodies.name(i));
-        if (body_touches[name]) continue;
-        if (number[name] < 0) {
-            number[name] = static_cast<Index>(bodies_.size());
-            bodies_.emplace_back();
+        const auto [name, offset] = bodies.find(i);
+        if (body_touches[static_cast<std::size_t>(name)]) continue;
+        Index& body = number[static_cast<std::size_t>(name)];
+        if (body < 0) {
+            body = static_cast<Index>(bodies_.size());
+            bodies_.push_back({{}, {}, bodies.is_endless(name)});
         }
-        bodies_[static_cast<std::size_t>(number[name])].push_back(i);
+        FreeBody& found = bodies_[static_cast<std::size_t>(body)];
+        found.particles.push_back(i);
+        found.periods.push_back(offset);
     }
     return bodies_;
 }

@@ -8,18 +8,26 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
+/// A body of liquid that touches nothing.
+struct FreeBody
+{
+    std::vector<Index> particles; ///< their places, in order
+    std::vector<Vector> periods;  ///< what takes each, where the body reaches across a period, to the others, m
+    bool endless = false;         ///< whether it hangs together with its own image
+};
+
 /// The bodies of liquid that touch nothing: moving particles that hang together from one to the next within the
 /// reach of neighbour lists, none of which has a wall, a solid or a mirror within the kernel's support. On each of them
-/// a closed surface's tension has no resultant, whatever its shape.
+/// a closed surface's tension has no resultant (models/closed_surface_tension.hpp).
 class FreeBodies
 {
 public:
-    /// Places of the particles of each body, in order. Found anew only where lists have changed since.
-    const std::vector<std::vector<Index>>& find(const Neighbourhood& neighbourhood, const Particles& particles,
-                                                const ScalarField& mobility);
+    /// Found anew only where lists have changed since.
+    const std::vector<FreeBody>& find(const Neighbourhood& neighbourhood, const Particles& particles,
+                                      const ScalarField& mobility);
 
 private:
-    std::vector<std::vector<Index>> bodies_;
+    std::vector<FreeBody> bodies_;
     std::uint64_t found_for_ = 0; ///< Neighbourhood::version() then
 };
 

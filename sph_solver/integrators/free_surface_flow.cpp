@@ -274,8 +274,10 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         particles_.pressure[i] = (*excess_pressure_)[i] + (*carried_load_)[i];
     });
     if (!tension_alone_) return;
-    for (const std::vector<Index>& body : free_bodies_.find(neighbourhood, particles_, mobility_.weight))
-        ClosedSurfaceTension{particles_.mass, particles_.volume, *carried_gradient_, force_}.balance(body);
+    const ClosedSurfaceTension tension{particles_.position, particles_.mass, particles_.volume, *carried_gradient_,
+                                       force_};
+    for (const FreeBody& body : free_bodies_.find(neighbourhood, particles_, mobility_.weight))
+        tension.balance(body.particles, body.periods, !body.endless);
 }
 
 /// Walls and solids as the liquid before them sees them: pressure, and from it density and volume.
