@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "kernels/lattice_sum.hpp"
 #include "models/closed_surface_tension.hpp"
 #include "models/density_diffusion.hpp"
 #include "models/momentum.hpp"
@@ -22,7 +23,9 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
       velocity_gradient_(VelocityGradientFields::register_in(particles_)),
       density_rate_(particles_.add_scalar({"density_rate", "kg/(m3 s)"})),
       density_rate_by_walls_(particles_.add_scalar({"density_rate_by_walls", "kg/(m3 s)"})),
-      rest_density_(scene.materials.front().density)
+      rest_density_(scene.materials.front().density),
+      lattice_packing_(std::pow(scene.spacing, scene.dimensions) *
+                       sum_over_lattice(kernel_, scene.spacing, scene.dimensions))
 {
     wall_force_ = &particles_.add_vector({"wall_force", "N"});
     if (load_ && !band_bears_load_) {
@@ -201,7 +204,8 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
                                         *shift_,
                                         *shifting_speed_};
         // Packing reads the speed that shifting has just stored for the same cluster.
-        sum_with_gradient(shifting, Packing{mobility_, h, *shifting_speed_, particles_.density, *packing_rate_});
+        sum_with_gradient(
+            shifting, Packing{mobility_, h, lattice_packing_, *shifting_speed_, particles_.density, *packing_rate_});
     }
     if (temperature_gradient_) correct_temperature_gradient(neighbourhood, correction_);
     if (density_gradient_ && with_density_gradient) correct_density_gradient(neighbourhood);

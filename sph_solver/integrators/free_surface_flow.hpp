@@ -59,6 +59,7 @@ private:
     ScalarField& density_rate_;
     ScalarField& density_rate_by_walls_; ///< only set where there are any near
     double rest_density_;
+    double lattice_packing_;   ///< C of a lattice (packing.hpp)
     double sound_ahead_ = 0.0; ///< time for which sound has been followed since all else was evaluated, s
     bool exchanged_ = false;   ///< whether what shifting carries has been exchanged since then
     VectorField* kernel_gradient_sum_ = nullptr; ///< only where a stress on the surface is shared out

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/lattice_sum.hpp"
 #include "models/density_summation.hpp"
 #include "models/interface_pressure.hpp"
 #include "models/momentum.hpp"
@@ -13,24 +14,6 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-namespace
-{
-
-/// Σ W over a lattice, 1/m³: near 1/Δx³ and not quite.
-double lattice_number(const SmoothingKernel& kernel, double spacing, int dimensions)
-{
-    const int reach = static_cast<int>(std::ceil(kernel.support() / spacing)), across = dimensions == 2 ? 0 : reach;
-    double sum = 0.0;
-    for (int x = -reach; x <= reach; ++x)
-        for (int y = -across; y <= across; ++y)
-            for (int z = -reach; z <= reach; ++z)
-                if (const double r = spacing * std::sqrt(x * x + y * y + z * z); r < kernel.support())
-                    sum += kernel(r).value;
-    return sum;
-}
-
-} // namespace
-
 TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const ScalarField& mobility)
     : Flow(scene, parameters, mobility), viscosity_(particles_.add_scalar({"viscosity", "Pa s"})),
       liquid_number_(particles_.add_scalar({"wall_liquid_number", "1/m3"})),
@@ -38,6 +21,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
       transport_number_(particles_.add_scalar({"wall_transport_number", "1/(m3 s)"})),
       wall_energy_(particles_.add_scalar({"wall_elastic_energy", "J"})),
       transport_rate_(particles_.add_scalar({"transport_rate", "m3/s"})),
+      volume_potential_(particles_.add_scalar({"volume_potential", "m2/s"})),
       transport_velocity_(particles_.add_vector({"transport_velocity", "m/s"}))
 {
     double heaviest = 0.0;
@@ -61,7 +45,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     if (load_ && scene.definition.numerics.acoustic_substeps > 1) hold_surface_forces();
     if (temperature_gradient_ || velocity_gradient_ || carried_load_)
         correction_.emplace(CorrectionMatrix::register_in(particles_));
-    lattice_number_ = lattice_number(kernel_, scene.spacing, scene.dimensions);
+    lattice_number_ = sum_over_lattice(kernel_, scene.spacing, scene.dimensions);
     lattice_crowding_ = lattice_number_ * scene.particle_volume;
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
@@ -211,13 +195,17 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
     };
     const auto sum_with_transport = [&](const auto&... others) {
         if (!transports_) return sum_with_remedies(others...);
+        const double square = std::pow(parameters_.smoothing_length, 2);
+        neighbourhood.for_each_moving(
+            [&](Index i) { volume_potential_[i] -= square * transport_rate_[i] / particles_.volume[i]; });
         // Chosen on a drop at rest and one that Marangoni stress drives (static_drop, thermocapillary_drop, both
         // judged): 10 times the strength of a free surface's shifting, since momentum does not follow, and never
         // faster than c₀/100.
-        sum_with_remedies(others..., TransportVelocity{mobility_, 10.0 * scene_.definition.numerics.shifting,
-                                                       parameters_.smoothing_length,
-                                                       0.02 * parameters_.equation_of_state.sound_speed,
-                                                       particles_.volume, *velocity_gradient_, transport_velocity_});
+        sum_with_remedies(others...,
+                          TransportVelocity{mobility_, 10.0 * scene_.definition.numerics.shifting,
+                                            parameters_.smoothing_length,
+                                            0.02 * parameters_.equation_of_state.sound_speed, particles_.volume,
+                                            *velocity_gradient_, volume_potential_, transport_velocity_});
     };
     const auto sum_with_temperature = [&](const auto&... others) {
         if (!temperature_gradient_) return sum_with_transport(others...);

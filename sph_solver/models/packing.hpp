@@ -7,7 +7,7 @@ namespace cupel::inline CUPEL_ENGINE
 
 /// What keeps a particle's density that of the arrangement it lies in:
 ///
-///   dρ_i/dt += (U_i/h) ρ_i (C_i − 1),   C_i = Σ_j V_j W_ij      [kg/(m³ s)]
+///   dρ_i/dt += (U_i/h) ρ_i (C_i − C₀),   C_i = Σ_j V_j W_ij      [kg/(m³ s)]
 ///
 /// Continuity (continuity.hpp) follows C exactly as long as volumes stay as they are. They do not: each particle's
 /// V = m/ρ wanders as it passes others, and with it how many volumes lie on top of each other, where no pressure tells:
@@ -15,12 +15,14 @@ namespace cupel::inline CUPEL_ENGINE
 /// at Re 10 and a sound speed 100 times the flow's became 11 % too fast (2 and 0.4 % with this). Where C exceeds one,
 /// volumes overlap: the liquid is denser than ρ says, and pressure then drives it apart. The rate is that of shifting,
 /// so that what is at rest is left alone, and no other number enters. Only inside the liquid, where kernels are full;
-/// |C − 1| counts up to 0.1. Own derivation; compare the volume-conserving shifting of Lyu and others 2022, which moves
-/// particles to the same end.
+/// |C − C₀| counts up to 0.1. C₀ is that of a lattice: one but for what the kernel's sum misses (−6·10⁻⁵ in two
+/// dimensions), by which liquid in perfect order would lose density as it moves. Own derivation; compare the
+/// volume-conserving shifting of Lyu and others 2022, which moves particles to the same end.
 struct Packing
 {
     Mobility mobility;
     double smoothing_length;  ///< h, m
+    double lattice_packing;   ///< C₀
     const ScalarField& speed; ///< U of shifting; zero outside, m/s
     const ScalarField& density;
     ScalarField& density_rate; ///< kg/(m³ s)
@@ -41,7 +43,7 @@ struct Packing
     {
         const Lanes rate = Lanes(1.0 / smoothing_length) * lanes(speed, cluster.first) * lanes(density, cluster.first);
         store_lanes(density_rate, cluster.first, mobility.moving_in(cluster),
-                    rate * clamp(sum.packing - 1.0, -0.1, 0.1));
+                    rate * clamp(sum.packing - lattice_packing, -0.1, 0.1));
     }
 };
 

@@ -24,16 +24,17 @@ Scalar shifting_speed(double strength, double smoothing_length, const Scalar& st
 /// The limit ½ U is the published one (Sun et al. 2019, eq. 10). The factor 20 is fitted: with it (s = 1) a closed
 /// layer that turns over keeps its particles evenly spaced; a fifth of it leaves rows that are half again as dense
 /// along the flow as across it. Particles are moved where the flow distorts their arrangement and in proportion to it,
-/// nowhere else: a drop at rest is left alone, and one fast particle moves no other. In the surface band only the
-/// tangential part is kept.
+/// nowhere else: a drop at rest is left alone, and one fast particle moves no other. In the surface's band only the
+/// tangential part is kept where |∇c| is large, which is the outermost row's on a lattice (the second row has 0.037/h);
+/// further inside |∇c| is noise, and as parallel to δu as can be.
 struct ShiftingVelocity
 {
     Mobility mobility;
-    double strength;                          ///< s
-    double smoothing_length;                  ///< h, m
-    double greatest_speed;                    ///< 0.1 c₀, m/s
-    double kernel_at_spacing;                 ///< W(Δx)
-    double tangential_above;                  ///< |∇c| above which only the tangential part is kept, 1/m
+    double strength;          ///< s
+    double smoothing_length;  ///< h, m
+    double greatest_speed;    ///< 0.1 c₀, m/s
+    double kernel_at_spacing; ///< W(Δx)
+    double tangential_above;  ///< |∇c| above which only the tangential part is kept in the surface's band, 1/m
     VelocityGradientFields velocity_gradient; ///< whose strain scales the shift
     const ScalarField& mass;
     double lattice_mass; ///< of a particle at the start, kg
@@ -75,13 +76,15 @@ struct ShiftingVelocity
         const Lanes greatest =
             shifting_speed(strength, smoothing_length, velocity_gradient.strain_rates(first), greatest_speed);
         const Lanes speed = select(spray, zero, exchange_balance(lanes(mass, first), lattice_mass) * greatest);
-        store_lanes(inner_speed, first, liquid, select(spray | (lanes(surface_delta, first) > zero), zero, greatest));
+        const LaneMask in_band = lanes(surface_delta, first) > zero;
+        store_lanes(inner_speed, first, liquid, select(spray | in_band, zero, greatest));
         VectorLanes u = (Lanes(-2.0 * smoothing_length) * speed) * sum.concentration;
         const Lanes limit = 0.5 * speed, magnitude = square_root(dot(u, u));
         u = select(magnitude > limit, limit / magnitude, one) * u;
         const VectorLanes gradient = lanes(*colour_gradient, first);
         const Lanes slope = dot(gradient, gradient);
-        u -= select(slope > tangential_above * tangential_above, dot(u, gradient) / slope, zero) * gradient;
+        const LaneMask tangential = in_band & (slope > tangential_above * tangential_above);
+        u -= select(tangential, dot(u, gradient) / slope, zero) * gradient;
         store_lanes(shift, first, liquid, u);
     }
 };

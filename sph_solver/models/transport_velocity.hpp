@@ -22,6 +22,14 @@ namespace cupel::inline CUPEL_ENGINE
 /// pressure). With the local strain rate such velocities, which differ from one particle to the next, have a strain of
 /// their own and keep themselves alive (5.3e-4 at s = 15; the mean, in which they cancel, 1.1e-4).
 ///
+/// Of it, what would change volumes is taken away again: the equation of state would answer it with pressure, and the
+/// liquid with velocities v = −δu, which nothing but viscosity brakes,
+///
+///   δu_i −= 1/V_i Σ_j (V_i² q_i + V_j² q_j) ∇W_ij,   q_i ← q_i − h² (dV_i/dt by δu)/V_i once a step      [m²/s]
+///
+/// a projection whose two operators are adjoint to each other (density_summation.hpp has the other one); its relaxation
+/// converges with less than 2.5 h² (of k²Ŵ² the greatest is 0.8/h²). Walls have q = 0. Own derivation.
+///
 /// Beside a wall the part of it along the wall's normal is left out, with w_i = Σ_j V_j ∇W_ij over the wall's
 /// particles,
 ///
@@ -38,21 +46,24 @@ struct TransportVelocity
     double smoothing_length; ///< h, m
     double greatest_speed;   ///< U_greatest, m/s
     const ScalarField& volume;
-    VelocityGradientFields gradient; ///< ∇v
+    VelocityGradientFields gradient;     ///< ∇v
+    const ScalarField& volume_potential; ///< q, m²/s
     VectorField& transport_velocity;
 
     struct Near
     {
-        Lanes volume;
+        Lanes volume, potential; ///< V, V² q
     };
     struct Far
     {
-        Real liquid, volume, xx, xy, xz, yy, yz, zz; ///< liquid: 1 or 0; the others 2S_j where there is liquid
+        Real liquid, volume, potential; ///< liquid: 1 or 0; V² q
+        Real xx, xy, xz, yy, yz, zz;    ///< 2S_j where there is liquid
 
         Far mirrored(const Vector& sign) const
         {
             return {liquid,
                     volume,
+                    potential,
                     xx,
                     real(sign.x * sign.y) * xy,
                     real(sign.x * sign.z) * xz,
@@ -63,18 +74,23 @@ struct TransportVelocity
     };
     struct Sum
     {
-        VectorLanes unevenness{}, wall{};
+        VectorLanes unevenness{}, expansion{}, wall{};
         Lanes weight{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
     };
 
     bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {lanes(volume, first)}; }
+    Near near(Index first) const
+    {
+        const Lanes v = lanes(volume, first);
+        return {v, v * v * lanes(volume_potential, first)};
+    }
     Far far(Index j) const
     {
-        if (mobility.weight[j] == 0.0) return {0, real(volume[j]), 0, 0, 0, 0, 0, 0};
+        if (mobility.weight[j] == 0.0) return {0, real(volume[j]), 0, 0, 0, 0, 0, 0, 0};
         const Vector u = gradient.x[j], v = gradient.y[j], w = gradient.z[j];
         return {1,
                 real(volume[j]),
+                real(volume[j] * volume[j] * volume_potential[j]),
                 real(2.0 * u.x),
                 real(u.y + v.x),
                 real(u.z + w.x),
@@ -85,6 +101,7 @@ struct TransportVelocity
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         sum.unevenness += ((i.volume * i.volume + j.volume * j.volume) * pair.gradient_over_r) * pair.offset;
+        sum.expansion += ((i.potential + j.potential) * pair.gradient_over_r) * pair.offset;
         if (j.liquid == 0) {
             sum.wall += (j.volume * pair.gradient_over_r) * pair.offset;
             return;
@@ -107,9 +124,10 @@ struct TransportVelocity
             if (mobility.weight[k] == 0.0) continue;
             const double strain_rate = std::sqrt(static_cast<double>(squares[lane])) / sum.weight[lane];
             const double speed = shifting_speed(strength, smoothing_length, strain_rate, greatest_speed);
-            Vector u = (-smoothing_length * speed / volume[k]) *
-                       Vector{sum.unevenness.x[lane], sum.unevenness.y[lane], sum.unevenness.z[lane]};
-            u -= along_wall_normal(u, Vector{sum.wall.x[lane], sum.wall.y[lane], sum.wall.z[lane]});
+            const auto of_lane = [&](const VectorLanes& v) { return Vector{v.x[lane], v.y[lane], v.z[lane]}; };
+            Vector u = (-smoothing_length * speed / volume[k]) * of_lane(sum.unevenness);
+            u -= (1.0 / volume[k]) * of_lane(sum.expansion);
+            u -= along_wall_normal(u, of_lane(sum.wall));
             if (const double size = norm(u), limit = 0.5 * speed; size > limit) u = (limit / size) * u;
             transport_velocity.set(k, u);
         }

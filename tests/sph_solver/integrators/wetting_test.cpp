@@ -63,8 +63,8 @@ TEST(Wetting, BooksCloseWhereWallsHoldTheEdgeOfADrop)
     Case definition = drop_on_a_wall(std::numbers::pi / 6.0);
     definition.domain.lower = {-0.5, 0, 0};
     definition.domain.upper = {2.5, 0, 1};
-    definition.numerics.reference_speed = 6.0; // no density is cut off
-    definition.materials.at("liquid").viscosity = 0.01;
+    definition.numerics.reference_speed = 12.0; // no density is cut off
+    definition.materials.at("liquid").viscosity = 0.02;
     Simulation simulation(place_particles(definition));
     simulation.start();
     while (simulation.time() < 0.5)
