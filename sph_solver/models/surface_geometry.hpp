@@ -42,7 +42,7 @@ struct SurfaceFields
     }
 };
 
-/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.1 in the second
+/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.04 in the second
 /// layer.      [1]
 inline double share_of_surface(const SurfaceFields& surface, Index i, double smoothing_length)
 {
