@@ -7,6 +7,7 @@
 #include "integrators/neighbourhood.hpp"
 #include "integrators/parameters.hpp"
 #include "integrators/surface_tracker.hpp"
+#include "integrators/values_at.hpp"
 #include "ledgers/mechanical_work.hpp"
 #include "models/artificial_stress.hpp"
 #include "models/artificial_viscosity.hpp"
@@ -93,27 +94,19 @@ public:
         const Vector impulsive = acceleration_[i] - acceleration_by_sound(i);
         return by_surface_ ? impulsive - (1.0 / particles_.mass[i]) * (*by_surface_)[i] : impulsive;
     }
-    /// What a kick adds to the velocity of a particle, m/s, all of it and by the surface's forces as far as these share
-    /// the time of sound and not of all else: nothing where both are the same. It is the force that is held, not the
-    /// acceleration, since shifting exchanges mass meanwhile.
-    struct Kick
+    /// What a kick adds to the velocity of a particle, or of a cluster (values_at.hpp), m/s, all of it and by the
+    /// surface's forces as far as these share the time of sound and not of all else: nothing where both are the same.
+    /// It is the force that is held, not the acceleration, since shifting exchanges mass meanwhile.
+    template <class Scalar> struct Kick
     {
-        Vector change, by_surface;
+        VectorOf<Scalar> change, by_surface;
     };
-    Kick kick(Index i, const KickTimes& times) const
-    {
-        const double per_mass = 1.0 / particles_.mass[i];
-        Kick kick{(times.sound - times.slow) * (per_mass * pressure_force_[i] + gravity_), {}};
-        if (times.slow > 0.0) kick.change += times.slow * acceleration_[i];
-        if (!by_surface_) return kick;
-        Vector impulse = (times.surface - times.slow) * (*by_surface_)[i];
-        if (times.surface_before != 0.0) impulse += times.surface_before * (*by_surface_before_)[i];
-        kick.by_surface = per_mass * impulse;
-        kick.change += kick.by_surface;
-        return kick;
-    }
-    /// Work of a kick on particle i, whose velocity is `mean` on the average of it, by cause, J.
-    MechanicalWork work(Index i, const Kick& kick, const Vector& mean_velocity, const KickTimes& times) const;
+    template <class At> Kick<typename At::Scalar> kick(const At& at, const KickTimes& times) const;
+    /// Its work, where the velocity is `mean` on the average of it.
+    template <class At>
+    WorkOnMotion<typename At::Scalar> work(const At& at, const Kick<typename At::Scalar>& kick,
+                                           const VectorOf<typename At::Scalar>& mean_velocity,
+                                           const KickTimes& times) const;
     /// e of a particle, J/kg.
     virtual double elastic_energy(Index i) const;
     /// ½ m v² + m e of all that moves, J.
@@ -200,19 +193,41 @@ private:
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it
 };
 
-inline MechanicalWork Flow::work(Index i, const Kick& kick, const Vector& mean_velocity, const KickTimes& times) const
+template <class At> Flow::Kick<typename At::Scalar> Flow::kick(const At& at, const KickTimes& times) const
 {
-    MechanicalWork work;
-    work.pressure = dot(pressure_force_[i], times.sound * mean_velocity);
-    if (wall_force_) work.imbalance = dot((*wall_force_)[i], times.sound * mean_velocity);
-    work.gravity = particles_.mass[i] * dot(gravity_, times.sound * mean_velocity);
-    if (by_surface_) work.surface = particles_.mass[i] * dot(kick.by_surface, mean_velocity);
+    using Scalar = typename At::Scalar;
+    const Scalar per_mass = Scalar(1.0) / at(particles_.mass);
+    Kick<Scalar> kick{Scalar(times.sound - times.slow) * (per_mass * at(pressure_force_) + vector<Scalar>(gravity_)),
+                      {}};
+    if (times.slow > 0.0) kick.change += Scalar(times.slow) * at(acceleration_);
+    if (!by_surface_) return kick;
+    VectorOf<Scalar> impulse = Scalar(times.surface - times.slow) * at(*by_surface_);
+    if (times.surface_before != 0.0) impulse += Scalar(times.surface_before) * at(*by_surface_before_);
+    kick.by_surface = per_mass * impulse;
+    kick.change += kick.by_surface;
+    return kick;
+}
+
+template <class At>
+WorkOnMotion<typename At::Scalar> Flow::work(const At& at, const Kick<typename At::Scalar>& kick,
+                                             const VectorOf<typename At::Scalar>& mean_velocity,
+                                             const KickTimes& times) const
+{
+    using Scalar = typename At::Scalar;
+    const Scalar mass = at(particles_.mass);
+    const VectorOf<Scalar> path_of_sound = Scalar(times.sound) * mean_velocity, gravity = vector<Scalar>(gravity_),
+                           pressure_force = at(pressure_force_);
+    WorkOnMotion<Scalar> work;
+    work.pressure = dot(pressure_force, path_of_sound);
+    if (wall_force_) work.imbalance = dot(at(*wall_force_), path_of_sound);
+    work.gravity = mass * dot(gravity, path_of_sound);
+    if (by_surface_) work.surface = mass * dot(kick.by_surface, mean_velocity);
     if (times.slow == 0.0) return work;
-    const Vector path = times.slow * mean_velocity;
-    work.viscosity = dot(viscous_force_[i], path);
-    if (artificial_force_) work.artificial = dot((*artificial_force_)[i], path);
-    work.surface +=
-        particles_.mass[i] * dot(acceleration_[i] - acceleration_by_sound(i), path) - work.viscosity - work.artificial;
+    const VectorOf<Scalar> path = Scalar(times.slow) * mean_velocity;
+    work.viscosity = dot(at(viscous_force_), path);
+    if (artificial_force_) work.artificial = dot(at(*artificial_force_), path);
+    const VectorOf<Scalar> force_of_sound = pressure_force + mass * gravity;
+    work.surface += dot(mass * at(acceleration_) - force_of_sound, path) - work.viscosity - work.artificial;
     return work;
 }
 

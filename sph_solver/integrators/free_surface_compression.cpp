@@ -5,6 +5,8 @@
 #include <iterator>
 #include <type_traits>
 
+#include "integrators/values_at.hpp"
+
 namespace cupel::inline CUPEL_ENGINE
 {
 
@@ -28,36 +30,6 @@ template <class Scalar> struct WorkOfCompression
         return *this;
     }
 };
-
-/// A particle's values of fields.
-struct OneParticle
-{
-    using Scalar = double;
-    Index i;
-
-    double operator()(const ScalarField& field) const { return field[i]; }
-    void store(ScalarField& field, double value) const { field[i] = value; }
-};
-/// The same of those of a cluster that are chosen.
-struct SomeOfCluster
-{
-    using Scalar = Lanes;
-    Index first;
-    unsigned which;
-
-    Lanes operator()(const ScalarField& field) const { return lanes(field, first); }
-    void store(ScalarField& field, const Lanes& values) const { store_lanes(field, first, which, values); }
-};
-
-constexpr unsigned all_lanes = (1u << lane_count) - 1u;
-/// Those lanes, zero elsewhere.
-Lanes chosen(const Lanes& a, unsigned which)
-{
-    Lanes some;
-    for (int lane = 0; lane < lane_count; ++lane)
-        if (which >> lane & 1u) some.set(lane, a[lane]);
-    return some;
-}
 
 /// How densities change in a step, kg/m³: in all, and of that by diffusion and by shifting.
 template <class Scalar> struct Changes
@@ -158,7 +130,7 @@ void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const Compres
                 at, changes, [&](const Lanes& density) { return c2 * (density - rest); },
                 [&](const Lanes& y) { return law.elastic_energy_near_rest(y); });
             for (Lanes& some : work.by)
-                some = at.which == all_lanes ? some : chosen(some, at.which);
+                some = at.chosen(some);
         }
         else
             for (int lane = 0; lane < cluster.count; ++lane)
@@ -169,27 +141,20 @@ void FreeSurfaceFlow::compress(const Neighbourhood& neighbourhood, const Compres
                 }
         return work;
     };
-    const auto keep = [&](const auto& work, const auto& sum) {
+    const auto keep = [&](const auto& work) {
         for (std::size_t k = 0; k < work.by.size(); ++k)
-            books_.*causes[k] += sum(work.by[k]);
+            books_.*causes[k] += sum_of(work.by[k]);
     };
     if constexpr (sizeof(Real) == sizeof(double)) {
         const auto& clusters = neighbourhood.moving();
-        const auto work = ordered_sum(static_cast<Index>(clusters.size()), [&](Index k) {
+        keep(ordered_sum(static_cast<Index>(clusters.size()), [&](Index k) {
             return compress_cluster(neighbourhood.list().cluster(clusters[static_cast<std::size_t>(k)]));
-        });
-        keep(work, [](const Lanes& a) {
-            double sum = 0.0;
-            for (int lane = 0; lane < lane_count; ++lane)
-                sum += a[lane];
-            return sum;
-        });
+        }));
     }
     else {
         const auto& moving = neighbourhood.moving_particles();
         keep(ordered_sum(static_cast<Index>(moving.size()),
-                         [&](Index m) { return compress_one(moving[static_cast<std::size_t>(m)]); }),
-             [](double a) { return a; });
+                         [&](Index m) { return compress_one(moving[static_cast<std::size_t>(m)]); }));
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <type_traits>
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -160,25 +162,62 @@ int Simulation::steps_of_sound(double fitting) const
     return static_cast<int>(std::clamp(std::round(fitting), 1.0, static_cast<double>(most_steps_of_sound())));
 }
 
+/// In double a cluster at a time, but for what is mushy: what is summed up from step to step has that precision.
 void Simulation::kick(const KickTimes& times, double with_new_velocity)
 {
     Particles& particles = *scene_.particles;
-    flow_->books() += sum_over_moving([&](Index i) {
-        const Flow::Kick kick = flow_->kick(i, times);
-        const Vector before = particles.velocity[i], change = kick.change;
-        const bool mushy = melts_ && (*liquid_fraction_)[i] < 1.0;
-        // Mush is damped implicitly: its drag is stiffer than any explicit step could follow.
-        const double kept =
-            mushy ? mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound) : 1.0;
-        const Vector velocity = kept * (before + change);
+    const auto kick_liquid = [&](const auto& at) {
+        using Scalar = typename std::decay_t<decltype(at)>::Scalar;
+        const auto kick = flow_->kick(at, times);
+        const auto before = at(particles.velocity);
+        at.store(particles.velocity, before + kick.change);
+        return flow_->work(at, kick, before + Scalar(0.5) * kick.change, times);
+    };
+    const auto kick_mush = [&](Index i) {
+        const OneParticle at{i};
+        const auto kick = flow_->kick(at, times);
+        const Vector before = particles.velocity[i];
+        // Its drag is stiffer than any explicit step could follow: implicitly.
+        const double kept = mushy_drag_.damping_factor((*liquid_fraction_)[i], particles.density[i], times.sound);
+        const Vector velocity = kept * (before + kick.change);
         particles.velocity.set(i, velocity);
-        if (!mushy) return flow_->work(i, kick, before + 0.5 * change, times);
         // Within a kick drag may stop what forces move. They do their work on the path that is left, and drag takes the
         // rest of what kinetic energy loses.
-        MechanicalWork work = flow_->work(i, kick, before + with_new_velocity * (velocity - before), times);
-        work.mush = 0.5 * particles.mass[i] * (dot(velocity, velocity) - dot(before, before)) - work.on_motion();
+        auto work = flow_->work(at, kick, before + with_new_velocity * (velocity - before), times);
+        work.mush = 0.5 * particles.mass[i] * (dot(velocity, velocity) - dot(before, before)) - work.by_forces();
         return work;
-    });
+    };
+    const auto kick_one = [&](Index i) {
+        return melts_ && (*liquid_fraction_)[i] < 1.0 ? kick_mush(i) : kick_liquid(OneParticle{i});
+    };
+    if constexpr (sizeof(Real) < sizeof(double))
+        flow_->books() += sum_over_moving(kick_one);
+    else {
+        const auto& clusters = neighbourhood_.moving();
+        const auto sum = ordered_sum(static_cast<Index>(clusters.size()), [&](Index k) {
+            const Cluster cluster = neighbourhood_.list().cluster(clusters[static_cast<std::size_t>(k)]);
+            const SomeOfCluster at{cluster.first, Mobility{mobility_}.moving_in(cluster)};
+            WorkOnMotion<Lanes> work;
+            if (!melts_ || (set_lanes(at(*liquid_fraction_) < Lanes(1.0)) & at.which) == 0) {
+                work = kick_liquid(at);
+                if (!at.all())
+                    for (const auto cause : work.causes)
+                        work.*cause = at.chosen(work.*cause);
+                return work;
+            }
+            for (int lane = 0; lane < cluster.count; ++lane)
+                if (at.which >> lane & 1u) {
+                    const auto one = kick_one(cluster.first + lane);
+                    for (std::size_t c = 0; c < std::size(work.causes); ++c)
+                        (work.*work.causes[c]).set(lane, one.*one.causes[c]);
+                }
+            return work;
+        });
+        WorkOnMotion<double> total;
+        for (std::size_t c = 0; c < std::size(sum.causes); ++c)
+            total.*total.causes[c] = sum_of(sum.*sum.causes[c]);
+        flow_->books() += total;
+    }
 }
 
 /// What stops takes its mechanical energy out of the flow, J.

@@ -21,7 +21,7 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
       transport_number_(particles_.add_scalar({"wall_transport_number", "1/(m3 s)"})),
       wall_energy_(particles_.add_scalar({"wall_elastic_energy", "J"})),
       transport_rate_(particles_.add_scalar({"transport_rate", "m3/s"})),
-      volume_potential_(particles_.add_scalar({"volume_potential", "m2/s"})),
+      volume_potential_(particles_.add_scalar({"volume_potential", "1/s"})),
       transport_velocity_(particles_.add_vector({"transport_velocity", "m/s"}))
 {
     double heaviest = 0.0;
@@ -195,9 +195,8 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
     };
     const auto sum_with_transport = [&](const auto&... others) {
         if (!transports_) return sum_with_remedies(others...);
-        const double square = std::pow(parameters_.smoothing_length, 2);
         neighbourhood.for_each_moving(
-            [&](Index i) { volume_potential_[i] -= square * transport_rate_[i] / particles_.volume[i]; });
+            [&](Index i) { volume_potential_[i] -= transport_rate_[i] / particles_.volume[i]; });
         // Chosen on a drop at rest and one that Marangoni stress drives (static_drop, thermocapillary_drop, both
         // judged): 10 times the strength of a free surface's shifting, since momentum does not follow, and never
         // faster than c₀/100.

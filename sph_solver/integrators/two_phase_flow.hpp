@@ -40,7 +40,7 @@ private:
     ScalarField& transport_number_;       ///< rate of that number by the transport velocity, 1/(m³ s)
     ScalarField& wall_energy_;            ///< J
     ScalarField& transport_rate_;         ///< rate of a volume by the transport velocity, m³/s
-    ScalarField& volume_potential_;       ///< that keeps the transport velocity from changing volumes, m²/s
+    ScalarField& volume_potential_;       ///< that keeps the transport velocity from changing volumes, 1/s
     VectorField& transport_velocity_;
     std::optional<CorrectionMatrix> correction_; ///< for Marangoni flow, the traction and the carried load
     std::optional<VelocityGradientFields> velocity_gradient_;

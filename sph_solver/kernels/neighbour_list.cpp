@@ -173,6 +173,7 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
             set_number_at(z[lane / particles_at_a_time], place, static_cast<float>(p.z));
         }
     }
+    const std::size_t before = found.size();
     for_each_cluster_near(box, [&](Index d) {
         const Cluster& near = clusters_[static_cast<std::size_t>(d)];
         const Filled near_x = filled(narrow(position.x, near.first, middle.x)),
@@ -184,7 +185,13 @@ void NeighbourList::list_cluster(const Particles& particles, Index c, std::vecto
             nearest = lesser(dx * dx + (dy * dy + dz * dz), nearest);
         }
         const std::uint32_t reached = candidates_below(nearest, reach_squared) & ((1u << near.count) - 1u);
-        if (reached != 0) found.push_back({near.first, reached});
+        if (reached == 0) return;
+        // With the clusters below it in its column, as far as there is room for them.
+        const Index above = found.size() > before ? near.first - found.back().first : 0;
+        if (above > 0 && above + near.count <= Listed::most)
+            found.back().lanes |= reached << above;
+        else
+            found.push_back({near.first, reached});
     });
 }
 
@@ -350,13 +357,12 @@ std::size_t NeighbourList::bytes() const
 std::vector<unsigned char> NeighbourList::seen_from(std::span<const Index> clusters) const
 {
     std::vector<unsigned char> seen(clusters_.size(), 0);
-    const auto mark = [&](Index particle) { seen[static_cast<std::size_t>(cluster_of(particle))] = 1; };
     for (const Index c : clusters) {
         for (const Listed& some : near(c))
-            mark(some.first);
+            for_each_cluster_of(some, [&](Index d, Index) { seen[static_cast<std::size_t>(d)] = 1; });
         for (const ImageRun& run : image_runs(c))
             for (Index j = run.first; j < run.first + run.count; ++j)
-                mark(j);
+                seen[static_cast<std::size_t>(cluster_of(j))] = 1;
     }
     return seen;
 }

@@ -24,10 +24,12 @@ struct Cluster
     unsigned lanes() const { return (1u << count) - 1u; } ///< a bit for each particle
 };
 
-/// Some particles of a cluster: bit k stands for the one at first + k. A list of these is a fifth as long as one of
-/// particles, and turns into one without a branch.
+/// Some of 16 particles that follow each other, of one cluster or of several: bit k stands for the one at first + k. A
+/// list of these is an eighth as long as one of particles, and turns into one without a branch.
 struct Listed
 {
+    static constexpr Index most = 16;
+
     Index first;
     std::uint32_t lanes;
 
@@ -95,6 +97,13 @@ public:
     /// Whether a pass may leave out clusters for which its terms have nothing to do.
     bool skips_idle() const { return skips_idle_; }
     void skip_nothing() { skips_idle_ = false; }
+    /// visit(cluster, k) for each cluster of which some are listed: its first particle would be bit k.
+    template <class Visit> void for_each_cluster_of(const Listed& some, const Visit& visit) const
+    {
+        Index c = cluster_of(some.first);
+        for (Index k = 0; some.lanes >> k != 0; k += cluster(c++).count)
+            visit(c, k);
+    }
     /// Every particle that is near as itself.
     template <class Visit> void for_each_listed(Index c, const Visit& visit) const
     {

@@ -257,14 +257,14 @@ void for_each_pair(const NeighbourList& list, const Particles& particles, const 
     constexpr bool ignores_some = (Ignores<Terms> && ...);
     std::optional<LanesOfInterest> of_interest;
     if constexpr (ignores_some) of_interest.emplace(list);
-    const auto wanted = [&](Index first) -> std::uint32_t {
+    const auto wanted = [&](const Listed& some) -> std::uint32_t {
         if constexpr (ignores_some)
-            return of_interest->of(first, [&](Index j) {
+            return of_interest->of(some, [&](Index j) {
                 return TermsOfCluster<Terms...>::all_ignore(all_terms, record.far(j),
                                                             std::index_sequence_for<Terms...>{});
             });
         else
-            return ~0u;
+            return some.lanes;
     };
     const Record* const records = records_for<Record>(list, clusters, particles.count(), record);
     // As many as registers hold beside a few neighbours: of the widest there are twice as many.

@@ -12,6 +12,25 @@
 namespace cupel
 {
 
+/// What is done to motion in a kick, by cause, J, of a particle or of a cluster of them.
+template <class Scalar> struct WorkOnMotion
+{
+    Scalar pressure = 0.0, viscosity = 0.0, gravity = 0.0, surface = 0.0, artificial = 0.0, imbalance = 0.0, mush = 0.0;
+
+    static constexpr Scalar WorkOnMotion::*causes[]{
+        &WorkOnMotion::pressure,   &WorkOnMotion::viscosity, &WorkOnMotion::gravity, &WorkOnMotion::surface,
+        &WorkOnMotion::artificial, &WorkOnMotion::imbalance, &WorkOnMotion::mush};
+
+    WorkOnMotion& operator+=(const WorkOnMotion& other)
+    {
+        for (const auto cause : causes)
+            this->*cause += other.*cause;
+        return *this;
+    }
+    /// By forces other than drag.
+    Scalar by_forces() const { return pressure + viscosity + gravity + surface + artificial; }
+};
+
 /// Work on the liquid that moves since the start, J, each of one cause. Mechanical energy is ½ m v² + m e, e(ρ) the
 /// elastic energy of the equation of state. A kick's work on a particle is its force times the mean of the velocities
 /// before and after, so that kinetic energy changes by the sum of all works to round-off; elastic energy changes with
@@ -54,8 +73,17 @@ struct MechanicalWork
         return *this;
     }
 
-    /// What forces other than drag give to motion in a kick, J.
-    double on_motion() const { return pressure + viscosity + gravity + surface + artificial; }
+    MechanicalWork& operator+=(const WorkOnMotion<double>& work)
+    {
+        pressure += work.pressure;
+        viscosity += work.viscosity;
+        gravity += work.gravity;
+        surface += work.surface;
+        artificial += work.artificial;
+        imbalance += work.imbalance;
+        mush += work.mush;
+        return *this;
+    }
 
     /// The books from what was there at the start and is there now, J.
     Ledger ledger(double start, double end) const

@@ -68,12 +68,13 @@ struct SurfaceStressShare
     }
     void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
     {
-        const VectorLanes& n = pair.volume_gradient;
+        const VectorLanes& r = pair.offset;
         const auto& l = j.other;
         sum.normal += pair.kernel * broadcast(j.normal);
-        sum.others += VectorLanes{Lanes(l.xx) * n.x + Lanes(l.xy) * n.y + Lanes(l.xz) * n.z,
-                                  Lanes(l.xy) * n.x + Lanes(l.yy) * n.y + Lanes(l.yz) * n.z,
-                                  Lanes(l.xz) * n.x + Lanes(l.yz) * n.y + Lanes(l.zz) * n.z};
+        sum.others +=
+            pair.volume_gradient_over_r * VectorLanes{Lanes(l.xx) * r.x + Lanes(l.xy) * r.y + Lanes(l.xz) * r.z,
+                                                      Lanes(l.xy) * r.x + Lanes(l.yy) * r.y + Lanes(l.yz) * r.z,
+                                                      Lanes(l.xz) * r.x + Lanes(l.yz) * r.y + Lanes(l.zz) * r.z};
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {

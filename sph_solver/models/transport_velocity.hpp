@@ -25,10 +25,10 @@ namespace cupel::inline CUPEL_ENGINE
 /// Of it, what would change volumes is taken away again: the equation of state would answer it with pressure, and the
 /// liquid with velocities v = −δu, which nothing but viscosity brakes,
 ///
-///   δu_i −= 1/V_i Σ_j (V_i² q_i + V_j² q_j) ∇W_ij,   q_i ← q_i − h² (dV_i/dt by δu)/V_i once a step      [m²/s]
+///   δu_i −= h²/V_i Σ_j (V_i² q_i + V_j² q_j) ∇W_ij,   q_i ← q_i − (dV_i/dt by δu)/V_i once a step      [1/s]
 ///
 /// a projection whose two operators are adjoint to each other (density_summation.hpp has the other one); its relaxation
-/// converges with less than 2.5 h² (of k²Ŵ² the greatest is 0.8/h²). Walls have q = 0. Own derivation.
+/// converges with less than 2.5 of it (of k²Ŵ² the greatest is 0.8/h²). Walls have q = 0. Own derivation.
 ///
 /// Beside a wall the part of it along the wall's normal is left out, with w_i = Σ_j V_j ∇W_ij over the wall's
 /// particles,
@@ -47,7 +47,7 @@ struct TransportVelocity
     double greatest_speed;   ///< U_greatest, m/s
     const ScalarField& volume;
     VelocityGradientFields gradient;     ///< ∇v
-    const ScalarField& volume_potential; ///< q, m²/s
+    const ScalarField& volume_potential; ///< q, 1/s
     VectorField& transport_velocity;
 
     struct Near
@@ -126,7 +126,7 @@ struct TransportVelocity
             const double speed = shifting_speed(strength, smoothing_length, strain_rate, greatest_speed);
             const auto of_lane = [&](const VectorLanes& v) { return Vector{v.x[lane], v.y[lane], v.z[lane]}; };
             Vector u = (-smoothing_length * speed / volume[k]) * of_lane(sum.unevenness);
-            u -= (1.0 / volume[k]) * of_lane(sum.expansion);
+            u -= (smoothing_length * smoothing_length / volume[k]) * of_lane(sum.expansion);
             u -= along_wall_normal(u, of_lane(sum.wall));
             if (const double size = norm(u), limit = 0.5 * speed; size > limit) u = (limit / size) * u;
             transport_velocity.set(k, u);

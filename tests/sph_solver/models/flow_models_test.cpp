@@ -339,7 +339,7 @@ TEST_P(FlowModels, TransportBetweenPhasesFollowsTheMeanStrain)
     Particles& particles = block.particles;
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     VectorField& transport = particles.add_vector({"transport_velocity", "m/s"});
-    ScalarField& potential = particles.add_scalar({"volume_potential", "m2/s"});
+    ScalarField& potential = particles.add_scalar({"volume_potential", "1/s"});
     const double h = 1.0, strength = 0.05;
     const auto mean_speed = [&](const auto& velocity_of) {
         for (Index i = 0; i < particles.count(); ++i)
@@ -383,7 +383,7 @@ TEST_P(FlowModels, TransportBetweenPhasesKeepsTheFirstRowAtItsDistanceFromAWall)
         particles.velocity.set(i, {0.4 * particles.position[i].z, 0.0, 0.0});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     VectorField& transport = particles.add_vector({"transport_velocity", "m/s"});
-    ScalarField& potential = particles.add_scalar({"volume_potential", "m2/s"});
+    ScalarField& potential = particles.add_scalar({"volume_potential", "1/s"});
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     block.run(TransportVelocity{{block.mobility}, 0.05, 1.0, 1e9, particles.volume, gradient, potential, transport});
     int first = 0, further = 0;
@@ -419,7 +419,7 @@ TEST_P(FlowModels, TransportBetweenPhasesComesToChangeNoVolumes)
         particles.velocity.set(i, {0.4 * particles.position[i].z, 0.0, 0.0});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
     VectorField& transport = particles.add_vector({"transport_velocity", "m/s"});
-    ScalarField& potential = particles.add_scalar({"volume_potential", "m2/s"});
+    ScalarField& potential = particles.add_scalar({"volume_potential", "1/s"});
     ScalarField& rate = particles.add_scalar({"transport_rate", "m3/s"});
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     const auto step = [&] {
