@@ -181,6 +181,8 @@ template <class Kernel, class... Terms>
     for_each_image(list, list.image_runs(c), record.particles.position, list.cluster(c).first,
                    [&](Index j, const Image& image, const VectorLanes& offset) {
                        auto far = record.far(j);
+                       if (TermsOfCluster<Terms...>::all_ignore(record.terms, far, std::index_sequence_for<Terms...>{}))
+                           return;
                        if (image.mirrors()) far.turn(image.sign);
                        terms.add(far, pair_at(offset, real(record.particles.volume[j])), sums);
                    });

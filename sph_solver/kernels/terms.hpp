@@ -143,7 +143,8 @@ private:
     }
     template <std::size_t t> void add_one(const Fars& far, const Pair& pair, Sums& sums) const
     {
-        if (!ignores(std::get<t>(terms), far.template of<t>()))
+        // What a term by itself ignores has not been listed for its pass.
+        if (sizeof...(Terms) == 1 || !ignores(std::get<t>(terms), far.template of<t>()))
             std::get<t>(terms).add(near.template of<t>(), far.template of<t>(), pair, std::get<t>(sums));
     }
     template <std::size_t... t> void store(const Cluster& cluster, const Sums& sums, std::index_sequence<t...>) const

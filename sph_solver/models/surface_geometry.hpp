@@ -42,8 +42,8 @@ struct SurfaceFields
     }
 };
 
-/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.04 in the second
-/// layer.      [1]
+/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.04 in the
+/// second layer.      [1]
 inline double share_of_surface(const SurfaceFields& surface, Index i, double smoothing_length)
 {
     if (!(surface.delta[i] > 0.0)) return 0.0;
@@ -155,7 +155,7 @@ struct NormalSmoothing
 
     bool idle(const Cluster& cluster) const
     {
-        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
+        return (set_lanes(lanes(surface.delta, cluster.first) > 0.0) & mobility.moving_in(cluster)) == 0;
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const
@@ -200,9 +200,9 @@ struct SurfaceNeighbourhood
 
     bool idle(const Cluster& cluster) const
     {
-        return none_in(cluster, [&](Index i) {
-            return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0 && surface.in_band[i] == 0.0;
-        });
+        const LaneMask beside = lanes(surface.delta, cluster.first) > 0.0,
+                       at = lanes(surface.in_band, cluster.first) > 0.0;
+        return (set_lanes(beside) & ~set_lanes(at) & mobility.moving_in(cluster)) == 0;
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const { return {real(mobility.weight[j] * surface.in_band[j])}; }
@@ -346,7 +346,7 @@ struct CurvatureSmoothing
 
     bool idle(const Cluster& cluster) const
     {
-        return none_in(cluster, [&](Index i) { return mobility.weight[i] != 0.0 && surface.delta[i] > 0.0; });
+        return (set_lanes(lanes(surface.delta, cluster.first) > 0.0) & mobility.moving_in(cluster)) == 0;
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const
