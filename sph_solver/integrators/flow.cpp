@@ -47,7 +47,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
                                                      scene.definition.requires_physics("melting")));
     if (loads || with_marangoni_ || shifts)
         surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
-                                                    loads && !scene.two_phase && !band_bears_load_);
+                                                    loads && !band_bears_load_);
     if (with_recoil_) {
         const Material& metal = scene.materials.front();
         vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),

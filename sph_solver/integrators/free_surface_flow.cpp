@@ -164,9 +164,8 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
     // What follows momentum adds to what it has just stored for the same cluster.
     start_artificial_force(neighbourhood);
     const auto sum = [&](auto with_walls, const auto&... others) {
-        const ViscousTraction<with_walls()> traction{
-            mobility_, particles_.volume, velocity_gradient_, viscosity,
-            nullptr,   &correction_,      viscous_force_,     kernel_gradient_sum_};
+        const ViscousTraction<with_walls()> traction{mobility_,   particles_.volume, velocity_gradient_,  viscosity,
+                                                     correction_, viscous_force_,    kernel_gradient_sum_};
         const FreeSurfaceMomentum<with_walls()> momentum{mobility_,           particles_.volume, *excess_pressure_,
                                                          particles_.velocity, viscosity,         pressure_force_,
                                                          viscous_force_,      *wall_force_};

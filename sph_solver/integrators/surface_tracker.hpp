@@ -63,6 +63,9 @@ private:
     SurfaceThresholds thresholds_;
     int dimensions_;
     bool two_phase_, needs_curvature_;
+    /// Between two phases: before what smoothing has taken is given back. Walls continue that one, since what is given
+    /// back is noise beside a contact line, where there is liquid on one side alone.
+    ScalarField* smoothed_curvature_ = nullptr;
     bool sharpens_; ///< only where the load is carried into the liquid: a band that bears it does not stand the noise
     double spacing_, h_, full_companions_;
     std::optional<WallInterface> wall_interface_;

@@ -9,7 +9,7 @@
 #include "models/momentum.hpp"
 #include "models/sound.hpp"
 #include "models/transport_velocity.hpp"
-#include "models/viscous_traction.hpp"
+#include "models/viscosity_jump.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -27,14 +27,15 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     double heaviest = 0.0;
     for (const Material& material : scene.materials)
         heaviest = std::max(heaviest, material.density);
-    double most_viscous = 0.0, least_viscous = scene.materials.front().viscosity.value();
+    least_viscosity_ = scene.materials.front().viscosity.value();
+    double most_viscous = 0.0;
     for (const Material& material : scene.materials) {
-        least_viscous = std::min(least_viscous, material.viscosity.value());
+        least_viscosity_ = std::min(least_viscosity_, material.viscosity.value());
         most_viscous = std::max(most_viscous, material.viscosity.value());
     }
-    if (most_viscous > least_viscous) excess_viscosity_ = &particles_.add_scalar({"excess_viscosity", "Pa s"});
+    viscosity_jumps_ = most_viscous > least_viscosity_;
     transports_ = scene.definition.numerics.shifting > 0.0;
-    if (excess_viscosity_ || transports_) velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
+    if (viscosity_jumps_ || transports_) velocity_gradient_.emplace(VelocityGradientFields::register_in(particles_));
     if (load_ && !band_bears_load_) {
         excess_pressure_ = &particles_.add_scalar({"excess_pressure", "Pa"});
         carried_load_ = &particles_.add_scalar({"carried_load", "Pa"});
@@ -49,10 +50,8 @@ TwoPhaseFlow::TwoPhaseFlow(Scene& scene, const FlowParameters& parameters, const
     lattice_crowding_ = lattice_number_ * scene.particle_volume;
     const double sound_speed = parameters.equation_of_state.sound_speed;
     stiffness_ = heaviest * sound_speed * sound_speed;
-    for (Index i = 0; i < particles_.count(); ++i) {
+    for (Index i = 0; i < particles_.count(); ++i)
         viscosity_[i] = scene.materials[particles_.material[static_cast<std::size_t>(i)]].viscosity.value();
-        if (excess_viscosity_) (*excess_viscosity_)[i] = viscosity_[i] - least_viscous;
-    }
 }
 
 void TwoPhaseFlow::drift(const Neighbourhood& neighbourhood, double time_step)
@@ -210,10 +209,9 @@ void TwoPhaseFlow::find_forces(const Neighbourhood& neighbourhood)
         if (!temperature_gradient_) return sum_with_transport(others...);
         sum_with_transport(others..., surface_temperature_gradient(), surface_temperature());
     };
-    // What all of the space has of a viscosity leaves no traction, and its noise can be spared.
-    if (excess_viscosity_)
-        sum_with_temperature(ViscousTraction{mobility_, particles_.volume, *velocity_gradient_, 1.0, excess_viscosity_,
-                                             nullptr, viscous_force_});
+    if (viscosity_jumps_)
+        sum_with_temperature(ViscosityJump{mobility_, particles_.volume, *velocity_gradient_, viscosity_,
+                                           least_viscosity_, viscous_force_});
     else
         sum_with_temperature();
     if (temperature_gradient_) correct_temperature_gradient(neighbourhood, *correction_);

@@ -44,8 +44,9 @@ private:
     VectorField& transport_velocity_;
     std::optional<CorrectionMatrix> correction_; ///< for Marangoni flow, the traction and the carried load
     std::optional<VelocityGradientFields> velocity_gradient_;
-    ScalarField* excess_viscosity_ = nullptr; ///< over that of the other phase, only where they differ
-    bool transports_ = false;                 ///< whether the case shifts particles
+    double least_viscosity_ = 0.0; ///< of the phases, Pa·s
+    bool viscosity_jumps_ = false;
+    bool transports_ = false; ///< whether the case shifts particles
     // Only where a load is carried (interface_pressure.hpp):
     ScalarField* carried_load_ = nullptr;
     ScalarField* carried_load_of_other_ = nullptr; ///< on walls

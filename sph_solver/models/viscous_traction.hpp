@@ -26,19 +26,14 @@ namespace cupel::inline CUPEL_ENGINE
 /// dissipates 0.70, 0.85, 0.92 of what it should). With A the forces have the power −Σ V μ (∇v:∇v + ∇vᵀ:∇v) for any
 /// strain that is linear in space, exactly (0.86, 0.96, 0.99 of the wave's). Where few neighbours are left L goes over
 /// to 1 (trusted_excess).
-///
-/// Between two viscosities the same half is (∇v)ᵀ·∇μ, which Morris's sum lacks as well: with it left out a drop of half
-/// the viscosity that Marangoni stress drives moves with τa/(2 μ_o + 6 μ_i), not τa/(4 μ_o + 4 μ_i), a fifth too fast.
-/// There each side has its own μ, less the least of all: a share that is the same everywhere adds nothing.
 template <bool with_walls = true> struct ViscousTraction
 {
     Mobility mobility;
     const ScalarField& volume;
     VelocityGradientFields gradient;
-    double viscosity;                    ///< μ of the liquid, Pa·s; 1 between two
-    const ScalarField* excess_viscosity; ///< μ_i less the least of all, Pa·s; null where there is one
-    const CorrectionMatrix* correction;  ///< L; null where no kernel is cut off
-    VectorField& force;                  ///< added to
+    double viscosity;               ///< μ of the liquid, Pa·s
+    CorrectionMatrix correction;    ///< L
+    VectorField& force;             ///< added to
     VectorField* own_sum = nullptr; ///< keeps Σ_j V_j ∇W_ij, what continues i counted twice, where this is asked, 1/m
 
     template <class Scalar> struct Columns
@@ -55,25 +50,6 @@ template <bool with_walls = true> struct ViscousTraction
         return {u + (e.xx * x + e.xy * y + e.xz * z), v + (e.xy * x + e.yy * y + e.yz * z),
                 w + (e.xz * x + e.yz * y + e.zz * z)};
     }
-    /// Of A, times what a particle's own viscosity is in units of `viscosity`; of one particle and of a cluster.
-    Columns<double> stress(Index i) const
-    {
-        const Columns<double> columns{gradient.x[i], gradient.y[i], gradient.z[i]};
-        if (excess_viscosity) return scaled((*excess_viscosity)[i], columns);
-        return correction ? corrected(columns, (*correction)[i]) : columns;
-    }
-    Columns<Lanes> stress_in(const Cluster& cluster) const
-    {
-        const auto [u, v, w] = gradient.of_cluster(cluster.first);
-        const Columns<Lanes> columns{u, v, w};
-        if (excess_viscosity) return scaled(lanes(*excess_viscosity, cluster.first), columns);
-        return correction ? corrected(columns, correction->of_cluster(cluster.first)) : columns;
-    }
-    template <class Scalar> static Columns<Scalar> scaled(const Scalar& share, const Columns<Scalar>& a)
-    {
-        return {share * a.x, share * a.y, share * a.z};
-    }
-
     struct Near
     {};
     struct Far
@@ -100,14 +76,14 @@ template <bool with_walls = true> struct ViscousTraction
     void ahead(Index first) const
     {
         prefetch(gradient, first);
-        if (correction) prefetch(*correction, first);
+        prefetch(correction, first);
     }
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
         if constexpr (with_walls)
             if (mobility.weight[j] == 0.0) return {2, {}, {}, {}};
-        const Columns<double> a = stress(j);
+        const Columns<double> a = corrected<double>({gradient.x[j], gradient.y[j], gradient.z[j]}, correction[j]);
         if constexpr (with_walls)
             return {1, real(a.x), real(a.y), real(a.z)};
         else
@@ -128,7 +104,8 @@ template <bool with_walls = true> struct ViscousTraction
     {
         const VectorLanes& n = sum.own;
         if (own_sum) store_lanes(*own_sum, cluster.first, mobility.moving_in(cluster), n);
-        const Columns<Lanes> a = stress_in(cluster);
+        const auto [u, v, w] = gradient.of_cluster(cluster.first);
+        const Columns<Lanes> a = corrected<Lanes>({u, v, w}, correction.of_cluster(cluster.first));
         const Lanes weight = Lanes(viscosity) * lanes(volume, cluster.first);
         store_lanes(force, cluster.first, mobility.moving_in(cluster),
                     lanes(force, cluster.first) + weight * (n.x * a.x + n.y * a.y + n.z * a.z + sum.others));

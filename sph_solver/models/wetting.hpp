@@ -54,14 +54,15 @@ struct WallInterface
     const VectorField& wall_normal;
     const ScalarField& wall_depth; ///< below the wall's plane, m
     SurfaceFields surface;
-    ScalarField& weight_sum;    ///< Σ W δ
-    ScalarField& cosine_sum;    ///< Σ W δ n̂·N
-    ScalarField& distance_sum;  ///< Σ W δ d, d above the wall's plane
-    ScalarField& curvature_sum; ///< Σ W δ κ, κ of the step before
-    VectorField& foot_sum;      ///< Σ W δ (x + s n̂ − x_w)
-    VectorField& lateral_sum;   ///< Σ W δ t̂
-    ScalarField& primary_sum;   ///< Σ W over the primary liquid
-    ScalarField& other_sum;     ///< Σ W over the surrounding
+    const ScalarField& curvature; ///< κ, of the step before, 1/m
+    ScalarField& weight_sum;      ///< Σ W δ
+    ScalarField& cosine_sum;      ///< Σ W δ n̂·N
+    ScalarField& distance_sum;    ///< Σ W δ d, d above the wall's plane
+    ScalarField& curvature_sum;   ///< Σ W δ κ
+    VectorField& foot_sum;        ///< Σ W δ (x + s n̂ − x_w)
+    VectorField& lateral_sum;     ///< Σ W δ t̂
+    ScalarField& primary_sum;     ///< Σ W over the primary liquid
+    ScalarField& other_sum;       ///< Σ W over the surrounding
 
     struct Near
     {
@@ -91,9 +92,9 @@ struct WallInterface
     Near near(Index first) const { return {lanes(wall_normal, first), lanes(wall_depth, first)}; }
     Far far(Index j) const
     {
-        return {real(mobility.weight[j]),   particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-                real(surface.delta[j]),     real(surface.depth[j]),
-                real(surface.curvature[j]), real(surface.colour_gradient[j]),
+        return {real(mobility.weight[j]), particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
+                real(surface.delta[j]),   real(surface.depth[j]),
+                real(curvature[j]),       real(surface.colour_gradient[j]),
                 real(surface.normal[j])};
     }
     bool ignores(const Far& j) const { return j.liquid == 0; }

@@ -1,8 +1,9 @@
 #include "scene/shape.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
+#include <utility>
 
 namespace cupel
 {
@@ -62,32 +63,80 @@ bool inside(const Body& body, const Vector3& position, int dimensions, bool undi
            position[2] < top && (dimensions == 2 || (position[1] >= body.lower[1] && position[1] < body.upper[1]));
 }
 
-Vector3 of_disc(const Perturbation& perturbation, double radius, const Vector3& offset)
+/// How much of the motion inside a drop is left outside of it, and its derivative, s in radii: all of it at the
+/// surface, nothing from `end` on, and no step in its first two derivatives.
+struct Fading
 {
-    // grad Re(w^n)/n = (Re, -Im) of w^(n-1) along (z, x), with w = z + i x
-    const std::complex<double> w(offset[2] / radius, offset[0] / radius);
-    const double r = std::abs(w), scale = perturbation.amplitude * radius;
-    if (r <= 1.0) {
-        const std::complex<double> power = std::pow(w, perturbation.mode - 1);
-        return {-scale * power.imag(), 0.0, scale * power.real()};
+    double share = 1, slope = 0;
+
+    Fading(double s, double end)
+    {
+        const double t = std::clamp((s - 1.0) / (end - 1.0), 0.0, 1.0);
+        share = 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+        slope = -30.0 * t * t * (1.0 - t) * (1.0 - t) / (end - 1.0);
     }
-    const std::complex<double> power = std::pow(w, -perturbation.mode - 1);
-    return {-scale * power.imag(), 0.0, scale * power.real()};
+};
+
+/// Where it ends: at twice the radius, or at the nearest side of the domain that leaves the drop whole.
+double end_of_fading(const Body& body, const Domain& domain, int dimensions)
+{
+    double end = 2.0;
+    for (const std::size_t axis : {0u, 1u, 2u}) {
+        if (dimensions == 2 && axis == 1) continue;
+        for (const double distance : {body.center[axis] - domain.lower[axis], domain.upper[axis] - body.center[axis]})
+            if (distance > 1.01 * body.radius) end = std::min(end, distance / body.radius);
+    }
+    return end;
 }
 
-Vector3 of_sphere(const Perturbation& perturbation, double radius, const Vector3& offset)
+Vector3 of_disc(const Perturbation& perturbation, double radius, double end, const Vector3& offset)
+{
+    const double s = std::hypot(offset[0], offset[2]) / radius;
+    if (s == 0) return {};
+    const int n = perturbation.mode;
+    const double angle = std::atan2(offset[0], offset[2]), sine = std::sin(angle), cosine = std::cos(angle);
+    const Fading left(s, end);
+    const double scale = perturbation.amplitude * radius * std::pow(s, n - 1);
+    const double outward = scale * left.share * std::cos(n * angle);
+    const double along = -scale * (left.share + s * left.slope / n) * std::sin(n * angle);
+    return {outward * sine + along * cosine, 0.0, outward * cosine - along * sine};
+}
+
+Vector3 of_sphere(const Perturbation& perturbation, double radius, double end, const Vector3& offset)
 {
     const double side = std::hypot(offset[0], offset[1]), distance = std::hypot(side, offset[2]);
     if (distance == 0) return {};
     const int n = perturbation.mode;
-    const double r = distance / radius, cosine = offset[2] / distance, sine = side / distance;
+    const double s = distance / radius, cosine = offset[2] / distance, sine = side / distance;
     const Legendre polynomial = legendre(n, cosine);
-    const double scale = perturbation.amplitude * radius * (r <= 1.0 ? std::pow(r, n - 1) : std::pow(r, -n - 2));
-    const double outward = scale * polynomial.value;
-    const double along = scale * sine * polynomial.slope * (r <= 1.0 ? -1.0 / n : 1.0 / (n + 1));
+    const Fading left(s, end);
+    const double scale = perturbation.amplitude * radius * std::pow(s, n - 1);
+    const double outward = scale * left.share * polynomial.value;
+    const double along = -scale * (left.share / n + s * left.slope / (n * (n + 1))) * sine * polynomial.slope;
     const double sideways = outward * sine + along * cosine;
     return {side > 0 ? sideways * offset[0] / side : 0.0, side > 0 ? sideways * offset[1] / side : 0.0,
             outward * cosine - along * sine};
+}
+
+/// Where a steady motion takes an offset in the time of one, by steps of Runge and Kutta's: unlike a single
+/// displacement along the motion it keeps volumes at finite amplitudes.
+template <class Motion> Vector3 carried(const Vector3& offset, const Motion& motion)
+{
+    constexpr int steps = 4;
+    constexpr double step = 1.0 / steps;
+    const auto plus = [](Vector3 a, double factor, const Vector3& b) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            a[axis] += factor * b[axis];
+        return a;
+    };
+    Vector3 place = offset;
+    for (int k = 0; k < steps; ++k) {
+        const Vector3 k1 = motion(place), k2 = motion(plus(place, 0.5 * step, k1)),
+                      k3 = motion(plus(place, 0.5 * step, k2)), k4 = motion(plus(place, step, k3));
+        for (const auto& [slope, weight] : {std::pair{k1, 1.0}, {k2, 2.0}, {k3, 2.0}, {k4, 1.0}})
+            place = plus(place, weight * step / 6.0, slope);
+    }
+    return plus(place, -1.0, offset);
 }
 
 Vector3 of_wave(const Body& body, const Domain& domain, const Vector3& position)
@@ -119,8 +168,11 @@ Vector3 displacement(const Body& body, const Domain& domain, const Vector3& posi
     if (body.surface_wave) return of_wave(body, domain, position);
     if (!body.perturbation) return {};
     const Vector3 offset = offset_from(body, position, dimensions);
-    return dimensions == 2 ? of_disc(*body.perturbation, body.radius, offset)
-                           : of_sphere(*body.perturbation, body.radius, offset);
+    const double end = end_of_fading(body, domain, dimensions);
+    return carried(offset, [&](const Vector3& place) {
+        return dimensions == 2 ? of_disc(*body.perturbation, body.radius, end, place)
+                               : of_sphere(*body.perturbation, body.radius, end, place);
+    });
 }
 
 } // namespace cupel

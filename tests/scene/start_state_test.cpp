@@ -2,6 +2,7 @@
 
 #include "scene/shape.hpp"
 
+#include <array>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,12 +179,52 @@ TEST(Displacement, CarriesTheRoundSurfaceOntoThePerturbedOne)
         }
 }
 
+/// By how much a displacement changes a small volume, as its share; in two dimensions along x and z.
+double volume_ratio(const Body& body, const Domain& domain, const Vector3& place, int dimensions)
+{
+    const double step = 1e-5;
+    std::array<Vector3, 3> columns{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Vector3 ahead = place, behind = place;
+        ahead[axis] += step;
+        behind[axis] -= step;
+        const Vector3 a = displacement(body, domain, ahead, dimensions),
+                      b = displacement(body, domain, behind, dimensions);
+        for (std::size_t row = 0; row < 3; ++row)
+            columns[axis][row] = (axis == row ? 1.0 : 0.0) + (a[row] - b[row]) / (2 * step);
+    }
+    const auto& [x, y, z] = columns;
+    return x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) + x[2] * (y[0] * z[1] - y[1] * z[0]);
+}
+
 TEST(Displacement, MovesNoVolume)
 {
     for (const int mode : {2, 3, 5})
         for (const Vector3& place : {Vector3{0.7, 0, 1.9}, Vector3{-1.1, 0, 0.4}, Vector3{2.5, 0, 2.1}}) {
-            EXPECT_NEAR(divergence_of_displacement(perturbed(mode, 0.01), {}, place, 2), 0, 1e-9);
-            EXPECT_NEAR(divergence_of_displacement(perturbed(mode, 0.01), {}, {place[0], 0.3, place[2]}, 3), 0, 1e-9);
+            EXPECT_NEAR(volume_ratio(perturbed(mode, 0.05), {}, place, 2), 1, 1e-7) << mode;
+            EXPECT_NEAR(volume_ratio(perturbed(mode, 0.05), {}, {place[0], 0.3, place[2]}, 3), 1, 1e-7) << mode;
+        }
+}
+
+TEST(Displacement, DoesNotSlipAlongTheSurfaceAndEndsAtTheSidesOfTheDomain)
+{
+    Domain domain;
+    domain.lower = {-3, -3, -2};
+    domain.upper = {3, 3, 4};
+    for (const int dimensions : {2, 3})
+        for (const int mode : {2, 3}) {
+            const Body body = perturbed(mode, 0.01);
+            for (double angle = 0.2; angle < std::numbers::pi; angle += 0.4) {
+                const auto at = [&](double radius) {
+                    return displacement(body, domain, {radius * std::sin(angle), 0, 1 + radius * std::cos(angle)},
+                                        dimensions);
+                };
+                const Vector3 inside = at(2.0 - 1e-7), outside = at(2.0 + 1e-7), side = at(3.0);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    EXPECT_NEAR(inside[axis], outside[axis], 1e-8);
+                    EXPECT_EQ(side[axis], 0.0);
+                }
+            }
         }
 }
 

@@ -159,7 +159,7 @@ TEST(StepsOfSound, LeaveADropInAnotherLiquidAsItIs)
     // The load that is carried into both liquids takes a step further with each of all else.
     EXPECT_NEAR(width_over_height(a), width_over_height(b), 0.05 * swing);
     const double closure = a.mechanical_ledger().closure();
-    EXPECT_NEAR(b.mechanical_ledger().closure(), closure, 0.2 * closure);
+    EXPECT_NEAR(b.mechanical_ledger().closure(), closure, 0.1 * closure);
 }
 
 TEST(StepsOfSound, ConserveMomentum)

@@ -17,6 +17,7 @@
 #include "models/surface_pressure.hpp"
 #include "models/surface_stress.hpp"
 #include "models/transport_velocity.hpp"
+#include "models/viscosity_jump.hpp"
 #include "models/viscous_traction.hpp"
 
 namespace cupel
@@ -276,7 +277,7 @@ ViscousPower viscous_power(int dimensions, double jitter)
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 0.3, pressure_force, force, wall_force});
     ViscousPower result{power(), 0.0, {}};
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, nullptr, &block.correction, force});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 0.3, block.correction, force});
     result.whole = power();
     double strained = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
@@ -308,7 +309,7 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     Particles& particles = block.particles;
     VectorField& force = particles.add_vector({"force", "N"});
     const VelocityGradientFields gradient = VelocityGradientFields::register_in(particles);
-    ScalarField& viscosity = particles.add_scalar({"excess_viscosity", "Pa s"});
+    ScalarField& viscosity = particles.add_scalar({"viscosity", "Pa s"});
     const Vector middle = block.middle();
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
@@ -317,9 +318,9 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
     }
     block.run(VelocityGradient{{block.mobility}, particles.velocity, block.correction, gradient});
     for (Index i = 0; i < particles.count(); ++i)
-        viscosity[i] = particles.position[i].x > middle.x ? 0.3 : 0.0;
-    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, &viscosity, nullptr, force});
-    Vector traction{};
+        viscosity[i] = particles.position[i].x > middle.x ? 0.4 : 0.1;
+    block.run(ViscosityJump{{block.mobility}, particles.volume, gradient, viscosity, 0.1, force});
+    Vector traction{}, on_more_viscous{};
     double area = 0.0;
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector offset = particles.position[i] - middle;
@@ -327,10 +328,17 @@ TEST_P(FlowModels, ViscosityThatJumpsLeavesTheTractionOfTheOtherGradient)
             std::abs(offset.x) < 3.0 && std::abs(offset.z) < 3.0 && (GetParam() == 2 || std::abs(offset.y) < 3.0);
         if (!inside) continue;
         traction += force[i];
+        if (offset.x > 0.0) on_more_viscous += force[i];
         area += 1.0 / 6.0;
     }
     EXPECT_NEAR(traction.x / area, 0.3, 0.003);
     EXPECT_NEAR(traction.z / area, 0.6, 0.006);
+    // Each side bears the share that its viscosity has of both.
+    EXPECT_NEAR(on_more_viscous.z / traction.z, 0.8, 1e-6);
+    Vector total{};
+    for (Index i = 0; i < particles.count(); ++i)
+        total += force[i];
+    EXPECT_LT(norm(total), 1e-12 * norm(traction));
 }
 
 TEST_P(FlowModels, TransportBetweenPhasesFollowsTheMeanStrain)
@@ -587,8 +595,7 @@ TEST_P(FlowModels, AStressOnTheSurfaceIsSharedOutAsViscosityAnswersIt)
     block.run(FreeSurfaceMomentum{
         {block.mobility}, particles.volume, no_pressure, particles.velocity, 1.0, pressure_force, force, wall_force});
     VectorField& own_sum = particles.add_vector({"own_sum", "1/m"});
-    block.run(ViscousTraction{
-        {block.mobility}, particles.volume, gradient, 1.0, nullptr, &block.correction, force, &own_sum});
+    block.run(ViscousTraction{{block.mobility}, particles.volume, gradient, 1.0, block.correction, force, &own_sum});
     std::fill(share.values.begin(), share.values.end(), SurfaceStressShare::wanted);
     block.run(SurfaceStressShare{
         {block.mobility}, block.correction, own_sum, surface, block.kernel.smoothing_length(), share, direction});
