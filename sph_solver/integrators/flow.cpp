@@ -46,8 +46,7 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     band_bears_load_ = loads && (continuum_force || (!scene.two_phase && scene.definition.requires_physics("wetting") &&
                                                      scene.definition.requires_physics("melting")));
     if (loads || with_marangoni_ || shifts)
-        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
-                                                    loads && !band_bears_load_);
+        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility, loads && !band_bears_load_);
     if (with_recoil_) {
         const Material& metal = scene.materials.front();
         vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),
