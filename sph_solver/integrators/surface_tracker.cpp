@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "models/normal_of_depth.hpp"
+
 namespace cupel::inline CUPEL_ENGINE
 {
 
@@ -46,7 +48,10 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
 {
     for (Index i = 0; i < particles_.count(); ++i)
         fields_.colour[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
-    if (two_phase_) smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
+    if (two_phase_) {
+        smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
+        interface_of_liquids_ = &particles_.add_scalar({"interface_of_liquids", "1/m"});
+    }
     if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
         // A wall that the scene does not give an angle is neutral: the surface meets it at right angles.
@@ -55,8 +60,9 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
         wall_interface_.emplace(WallInterface{
             mobility_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
             particles_.vector("wall_normal"), particles_.scalar("wall_depth"), fields_,
-            two_phase_ ? *smoothed_curvature_ : fields_.curvature, scalar("wall_weight_sum"), scalar("wall_cosine_sum"),
-            scalar("wall_distance_sum"), scalar("wall_curvature_sum"), particles_.add_vector({"wall_foot_sum", "1"}),
+            two_phase_ ? *interface_of_liquids_ : fields_.delta, two_phase_ ? *smoothed_curvature_ : fields_.curvature,
+            scalar("wall_weight_sum"), scalar("wall_cosine_sum"), scalar("wall_distance_sum"),
+            scalar("wall_curvature_sum"), particles_.add_vector({"wall_foot_sum", "1"}),
             particles_.add_vector({"wall_lateral_sum", "1"}), scalar("wall_primary_sum"), scalar("wall_other_sum")});
         if (needs_curvature_ && scene.definition.numerics.contact_line_force && !overhangs(two_phase_, contact_angle_))
         {
@@ -76,7 +82,7 @@ void SurfaceTracker::find(const Neighbourhood& neighbourhood)
     neighbourhood.for_each_moving([&](Index i) { finish_gradient(i); });
     find_band(neighbourhood);
     if (wall_interface_) wet_walls(neighbourhood);
-    smooth_normals(neighbourhood);
+    find_normals(neighbourhood);
     if (needs_curvature_) fit_curvature(neighbourhood);
 }
 
@@ -111,10 +117,11 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     const NeighbourList& list = neighbourhood.list();
     const std::vector<Index> walls = clusters_of_walls(neighbourhood);
     if (walls.empty()) return;
-    prescribe_wall_normals(neighbourhood, walls);
-
     const std::vector<Index> wetting = neighbourhood.moving_near(walls);
     const auto sum = [&](const auto& term) { for_each_pair(list, particles_, kernel_, wetting, term); };
+    if (interface_of_liquids_) sum(InterfaceOfLiquids{mobility_, fields_.colour, *interface_of_liquids_});
+    prescribe_wall_normals(neighbourhood, walls);
+
     two_phase_ ? sum(colour_gradient<true>()) : sum(colour_gradient<false>());
     for (const Index c : wetting) {
         const Cluster& cluster = list.cluster(c);
@@ -143,20 +150,6 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
 }
 
-/// Whether a wall particle sees enough of both liquids to be where their interface meets the wall: a fifth of what it
-/// would see of each in the wedge of Young's angle. A continued interface is nothing that liquid has to bear out: a
-/// wall that had the primary liquid's colour under the other one showed that a surface, went on continuing it, and a
-/// drop of 30 degrees crept along its wall without end. The fifth is chosen: it leaves the place at which the continued
-/// interface passes (all of the wedge), and one spacing further out.
-bool SurfaceTracker::meets_surface(Index top) const
-{
-    if (!two_phase_) return true;
-    constexpr double share = 0.2;
-    const double primary = wall_interface_->primary_sum[top], other = wall_interface_->other_sum[top];
-    const double wedge = contact_angle_ / std::numbers::pi, all = primary + other;
-    return primary > share * wedge * all && other > share * (1.0 - wedge) * all;
-}
-
 void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
@@ -180,7 +173,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
             const Index top = particles_.place_of(parent);
             const Vector lateral = wall.lateral_sum[top];
             const double length = norm(lateral);
-            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0 && meets_surface(top)) {
+            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0) {
                 const Vector inward = wall.wall_normal[i], along = (1.0 / length) * lateral;
                 const double scale = 1.0 / wall.weight_sum[top];
                 const double slope = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);
@@ -223,10 +216,12 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
     }
 }
 
-void SurfaceTracker::smooth_normals(const Neighbourhood& neighbourhood)
+void SurfaceTracker::find_normals(const Neighbourhood& neighbourhood)
 {
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  NormalSmoothing{mobility_, fields_});
+    const auto sum = [&](const auto& term) {
+        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), term);
+    };
+    two_phase_ ? sum(NormalOfDepth{mobility_, dimensions_, fields_}) : sum(NormalSmoothing{mobility_, fields_});
     neighbourhood.for_each_moving([&](Index i) {
         if (!(fields_.delta[i] > 0.0)) return;
         const Vector normal = fields_.smoothed_normal[i];
@@ -252,13 +247,14 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
 }
 
 /// Gives back what smoothing has taken from the curvature of a wave. On its way it passes four kernels of the same
-/// width: the colour gradient, the smoothing of normals, the fit, and the smoothing of the fit. Each leaves 1 − q of
-/// it, q = ½ k² ⟨x²⟩ (the fit too, where its weights fall off as a Gaussian's do), so that with one more, which gives
-/// (1 − q) κ̄,   κ ← κ̄ + 4 (κ̄ − (1 − q) κ̄) = (1 − q)⁴ (1 + 4 q) κ = (1 − 10 q² + …) κ   is right to the second order in
-/// k h, and never more than κ. Between two phases particles start on a lattice, and steps of a spacing's length are
-/// next to nothing after five kernels and five times the rest after four: κ̄ is smoothed once more beforehand, and five
-/// differences are added, (1 − q)⁵ (1 + 5 q) (static_drop at La 120, coarse: spurious capillary number 8.9e-5, and
-/// 1.4e-4 without that; with nothing given back the second mode of oscillating_drop_2d has 0.9 of its stiffness).
+/// width: the colour gradient and the smoothing of normals (between two phases depth, by a smoothed colour, and its
+/// gradient), the fit, and the smoothing of the fit. Each leaves 1 − q of it, q = ½ k² ⟨x²⟩ (the fit too, where its
+/// weights fall off as a Gaussian's do), so that with one more, which gives (1 − q) κ̄,   κ ← κ̄ + 4 (κ̄ − (1 − q) κ̄) = (1
+/// − q)⁴ (1 + 4 q) κ = (1 − 10 q² + …) κ   is right to the second order in k h, and never more than κ. Between two
+/// phases particles start on a lattice, and steps of a spacing's length are next to nothing after five kernels and five
+/// times the rest after four: κ̄ is smoothed once more beforehand, and five differences are added, (1 − q)⁵ (1 + 5 q)
+/// (static_drop at La 120, coarse: spurious capillary number 8.9e-5, and 1.4e-4 without that; with nothing given back
+/// the second mode of oscillating_drop_2d has 0.9 of its stiffness).
 void SurfaceTracker::sharpen_curvature(const Neighbourhood& neighbourhood, double greatest)
 {
     const auto smooth = [&](const ScalarField& value, ScalarField& smoothed) {

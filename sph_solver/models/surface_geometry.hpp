@@ -133,7 +133,8 @@ template <bool two_phase, bool with_walls = true> struct ColourGradient
     }
 };
 
-/// Smoothed normals, with the weight δ W over the band: those of single particles are too noisy to be differentiated.
+/// Smoothed normals of a free surface, with the weight δ W over the band: those of single particles are too noisy to be
+/// differentiated. (Between two phases: normal_of_depth.hpp.)
 ///
 ///   n̂_i ← Σ_j δ_j W_ij n̂_j / |…|      [1]
 struct NormalSmoothing

@@ -8,6 +8,7 @@
 #include "models/density_summation.hpp"
 #include "models/equation_of_state.hpp"
 #include "models/momentum.hpp"
+#include "models/normal_of_depth.hpp"
 #include "models/packing.hpp"
 #include "models/shifting.hpp"
 #include "models/shifting_exchange.hpp"
@@ -673,6 +674,37 @@ TEST(TangentPlaneCurvature, IsThatOfTheSurfaceAboveTheParticle)
     EXPECT_NEAR(at_surface(1.0 / 9.0, 0.0, 1.0), 1.0 / 10.0, 1e-15);
     EXPECT_NEAR(at_surface(-1.0 / 11.0, 0.0, 1.0), -1.0 / 10.0, 1e-15);
     EXPECT_NEAR(at_surface(0.1, -0.1, 1.0), 0.1 / 1.1 - 0.1 / 0.9, 1e-15);
+}
+
+TEST_P(FlowModels, NormalOfALinearDepthIsExactHoweverParticlesLie)
+{
+    Block block(GetParam(), 12, 0.3);
+    const Particles& particles = block.particles;
+    SurfaceFields surface = SurfaceFields::register_in(block.particles);
+    const Vector outward = GetParam() == 2 ? Vector{0.6, 0.0, 0.8} : Vector{0.48, -0.6, 0.64};
+    const Vector by_colour{1.0, 0.0, 0.0};
+    // A band four spacings wide, and beside it particles whose depth nobody knows.
+    for (Index i = 0; i < particles.count(); ++i) {
+        const double depth = dot(Vector{6.0, GetParam() == 2 ? 0.0 : 6.0, 6.0} - particles.position[i], outward);
+        const bool known = std::abs(depth) < 2.0;
+        surface.delta[i] = known ? 2.1 - std::abs(depth) : 0.0;
+        surface.depth[i] = known ? depth : 99.0;
+        surface.normal.set(i, by_colour);
+    }
+    block.run(NormalOfDepth{{block.mobility}, GetParam(), surface});
+    int seen = 0;
+    for (Index i = 0; i < particles.count(); ++i)
+        if (surface.delta[i] > 0.0) {
+            EXPECT_NEAR(norm(surface.smoothed_normal[i] - outward), 0.0, 1e-9);
+            ++seen;
+        }
+    EXPECT_GT(seen, 40);
+    // In a film both of whose sides are as far, depth does not say which way is out.
+    for (Index i = 0; i < particles.count(); ++i)
+        surface.depth[i] = 1.0;
+    block.run(NormalOfDepth{{block.mobility}, GetParam(), surface});
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_TRUE(surface.delta[i] == 0.0 || norm(surface.smoothed_normal[i] - by_colour) < 1e-12);
 }
 
 TEST_P(FlowModels, LoadThatGrowsAlongAFlatSurfaceHasThatGradient)
