@@ -48,10 +48,7 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
 {
     for (Index i = 0; i < particles_.count(); ++i)
         fields_.colour[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
-    if (two_phase_) {
-        smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
-        interface_of_liquids_ = &particles_.add_scalar({"interface_of_liquids", "1/m"});
-    }
+    if (two_phase_) smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
     if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
         // A wall that the scene does not give an angle is neutral: the surface meets it at right angles.
@@ -60,9 +57,8 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
         wall_interface_.emplace(WallInterface{
             mobility_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
             particles_.vector("wall_normal"), particles_.scalar("wall_depth"), fields_,
-            two_phase_ ? *interface_of_liquids_ : fields_.delta, two_phase_ ? *smoothed_curvature_ : fields_.curvature,
-            scalar("wall_weight_sum"), scalar("wall_cosine_sum"), scalar("wall_distance_sum"),
-            scalar("wall_curvature_sum"), particles_.add_vector({"wall_foot_sum", "1"}),
+            two_phase_ ? *smoothed_curvature_ : fields_.curvature, scalar("wall_weight_sum"), scalar("wall_cosine_sum"),
+            scalar("wall_distance_sum"), scalar("wall_curvature_sum"), particles_.add_vector({"wall_foot_sum", "1"}),
             particles_.add_vector({"wall_lateral_sum", "1"}), scalar("wall_primary_sum"), scalar("wall_other_sum")});
         if (needs_curvature_ && scene.definition.numerics.contact_line_force && !overhangs(two_phase_, contact_angle_))
         {
@@ -117,11 +113,10 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     const NeighbourList& list = neighbourhood.list();
     const std::vector<Index> walls = clusters_of_walls(neighbourhood);
     if (walls.empty()) return;
-    const std::vector<Index> wetting = neighbourhood.moving_near(walls);
-    const auto sum = [&](const auto& term) { for_each_pair(list, particles_, kernel_, wetting, term); };
-    if (interface_of_liquids_) sum(InterfaceOfLiquids{mobility_, fields_.colour, *interface_of_liquids_});
     prescribe_wall_normals(neighbourhood, walls);
 
+    const std::vector<Index> wetting = neighbourhood.moving_near(walls);
+    const auto sum = [&](const auto& term) { for_each_pair(list, particles_, kernel_, wetting, term); };
     two_phase_ ? sum(colour_gradient<true>()) : sum(colour_gradient<false>());
     for (const Index c : wetting) {
         const Cluster& cluster = list.cluster(c);
@@ -150,6 +145,20 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
 }
 
+/// Whether a wall particle sees enough of both liquids to be where their interface meets the wall: a fifth of what it
+/// would see of each in the wedge of Young's angle. A continued interface is nothing that liquid has to bear out: a
+/// wall that had the primary liquid's colour under the other one showed that a surface, went on continuing it, and a
+/// drop of 30 degrees crept along its wall without end. The fifth is chosen: it leaves the place at which the continued
+/// interface passes (all of the wedge), and one spacing further out.
+bool SurfaceTracker::meets_surface(Index top) const
+{
+    if (!two_phase_) return true;
+    constexpr double share = 0.2;
+    const double primary = wall_interface_->primary_sum[top], other = wall_interface_->other_sum[top];
+    const double wedge = contact_angle_ / std::numbers::pi, all = primary + other;
+    return primary > share * wedge * all && other > share * (1.0 - wedge) * all;
+}
+
 void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls)
 {
     for_each_pair(neighbourhood.list(), particles_, kernel_, walls, *wall_interface_);
@@ -173,7 +182,7 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
             const Index top = particles_.place_of(parent);
             const Vector lateral = wall.lateral_sum[top];
             const double length = norm(lateral);
-            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0) {
+            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0 && meets_surface(top)) {
                 const Vector inward = wall.wall_normal[i], along = (1.0 / length) * lateral;
                 const double scale = 1.0 / wall.weight_sum[top];
                 const double slope = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);

@@ -49,6 +49,7 @@ private:
     void find_band(const Neighbourhood& neighbourhood);
     std::vector<Index> clusters_of_walls(const Neighbourhood& neighbourhood) const;
     void wet_walls(const Neighbourhood& neighbourhood);
+    bool meets_surface(Index top) const;
     void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void find_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);
@@ -65,7 +66,6 @@ private:
     /// Between two phases: before what smoothing has taken is given back. Walls continue that one, since what is given
     /// back is noise beside a contact line, where there is liquid on one side alone.
     ScalarField* smoothed_curvature_ = nullptr;
-    ScalarField* interface_of_liquids_ = nullptr; ///< between two phases
     bool sharpens_; ///< only where the load is carried into the liquid: a band that bears it does not stand the noise
     double spacing_, h_, full_companions_;
     std::optional<WallInterface> wall_interface_;

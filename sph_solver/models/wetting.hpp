@@ -54,7 +54,6 @@ struct WallInterface
     const VectorField& wall_normal;
     const ScalarField& wall_depth; ///< below the wall's plane, m
     SurfaceFields surface;
-    const ScalarField& delta;     ///< δ_j, 1/m: of the surface, between two liquids that of InterfaceOfLiquids
     const ScalarField& curvature; ///< κ, of the step before, 1/m
     ScalarField& weight_sum;      ///< Σ W δ
     ScalarField& cosine_sum;      ///< Σ W δ n̂·N
@@ -94,7 +93,7 @@ struct WallInterface
     Far far(Index j) const
     {
         return {real(mobility.weight[j]), particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-                real(delta[j]),           real(surface.depth[j]),
+                real(surface.delta[j]),   real(surface.depth[j]),
                 real(curvature[j]),       real(surface.colour_gradient[j]),
                 real(surface.normal[j])};
     }
@@ -129,46 +128,6 @@ struct WallInterface
         store_lanes(lateral_sum, cluster.first, chosen, sum.lateral);
         store_lanes(primary_sum, cluster.first, chosen, sum.primary);
         store_lanes(other_sum, cluster.first, chosen, sum.other);
-    }
-};
-
-/// The interface between two liquids as these show it by themselves, without what walls continue:
-///
-///   δ_i = |Σ_j V_j (c_j − c_i) ∇W_ij|,   j of either liquid      [1/m]
-///
-/// It is what walls are told of an interface. By the whole colour gradient they would go on to continue what they have
-/// brought about themselves where no liquid bears it out, and a drop of 30 degrees would creep along its wall without
-/// end.
-struct InterfaceOfLiquids
-{
-    Mobility mobility;
-    const ScalarField& colour;
-    ScalarField& delta;
-
-    struct Near
-    {
-        Lanes colour;
-    };
-    struct Far
-    {
-        Real liquid, colour; ///< liquid: 1 or 0
-    };
-    struct Sum
-    {
-        VectorLanes gradient{};
-    };
-
-    bool idle(const Cluster& cluster) const { return mobility.none_in(cluster); }
-    Near near(Index first) const { return {lanes(colour, first)}; }
-    Far far(Index j) const { return {real(mobility.weight[j]), real(colour[j])}; }
-    bool ignores(const Far& j) const { return j.liquid == 0; }
-    void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
-    {
-        sum.gradient += (j.colour - i.colour) * pair.volume_gradient;
-    }
-    void store(const Cluster& cluster, const Near&, const Sum& sum) const
-    {
-        store_lanes(delta, cluster.first, mobility.moving_in(cluster), square_root(dot(sum.gradient, sum.gradient)));
     }
 };
 
