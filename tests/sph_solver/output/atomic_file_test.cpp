@@ -83,7 +83,7 @@ TEST_F(AtomicFile, FolderThatCannotBeMadeIsNamed)
                               {"plain_file", "a file, not a folder"}));
 }
 
-TEST_F(AtomicFile, EveryExpectedSystemErrorSaysWhatToDo)
+TEST_F(AtomicFile, EveryExpectedSystemErrorNamesItsRemedy)
 {
     for (const int error : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EPERM, ENOENT, ENOTDIR, EIO, EMFILE})
         EXPECT_TRUE(one_line_with(system_output_error(error, "/results/history.csv", "written").what(),
