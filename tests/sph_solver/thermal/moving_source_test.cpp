@@ -138,9 +138,9 @@ TEST(MovingSource, PoolIsThatOfTheExactSolution)
     RecordProperty("width_error", std::to_string(width));
     RecordProperty("depth_error", std::to_string(depth));
     RecordProperty("rms", std::to_string(result.rms));
-    EXPECT_LT(std::abs(width), 0.02);
-    EXPECT_LT(std::abs(depth), 0.02);
-    EXPECT_LT(result.rms, 0.02);
+    EXPECT_LT(std::abs(width), 0.01);
+    EXPECT_LT(std::abs(depth), 0.01);
+    EXPECT_LT(result.rms, 0.005);
     EXPECT_LT(result.laser_error, 1e-12);
     EXPECT_LT(result.closure, 1e-10);
 }
