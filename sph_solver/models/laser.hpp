@@ -24,9 +24,9 @@ namespace cupel
 /// half space has: T = e^{kz}/(λk) · (1 + 0.19 k²Δx²), since the flux enters half a spacing below the surface (1/8 of
 /// it) and what a kernel conducts too little along a wave is made up for by what it conducts too much across it
 /// everywhere but there. The coefficient is that of the discrete operator (heat_conduction.hpp) on a lattice's half
-/// space, solved for kΔx from 0.1 to 0.4; it is the same in two dimensions. Rays half a spacing apart take off 1/32 of
-/// the 0.19. A Gaussian of variance s² for each axis takes off ½ k² s²: that of the rays is wider than the beam by s² =
-/// 0.32 Δx²,
+/// space, solved for kΔx from 0.1 to 0.4 (beam_on_a_lattice_test.cpp); it is the same in two dimensions. Rays half a
+/// spacing apart take off 1/32 of the 0.19. A Gaussian of variance s² for each axis takes off ½ k² s²: that of the rays
+/// is wider than the beam by s² = 0.32 Δx²,
 ///
 ///   r₀'² = r₀² + 4 s²      [m²]
 ///
