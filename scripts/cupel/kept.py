@@ -30,6 +30,8 @@ DEPENDS_ON = {
 READ_BY_REFERENCE = ("time_step_factor", "openfoam")
 # What changes nothing but the order of sums: how long lists of neighbours hold.
 OF_NO_EFFECT = ("skin",)
+# A limit, which decides nothing for a run that does not come to it: how many steps of sound make one of all else at most.
+STEPS_OF_SOUND = "acoustic_substeps"
 MEASURED_BY = ("scripts/cupel/measures", "scripts/cupel/exact")
 NOT_CODE = (":(exclude)*.md",)
 
@@ -59,17 +61,38 @@ def _overrides(formulation: str) -> tuple[list[str], ...]:
     return () if formulation == DEFAULT else (overrides_of(formulation),)
 
 
-def same_case(solver: str, one: dict, other: dict) -> bool:
-    """Whether two resolved cases are the same to a solver: their hashes are equal, or only what the other solver reads differs."""
-    return one.get("hash") == other.get("hash") or _as_read_by(solver, one) == _as_read_by(solver, other)
+def same_case(solver: str, one: dict, other: dict, cost: dict | None = None) -> bool:
+    """Whether two resolved cases are the same to a solver: their hashes are equal, or only what the other solver reads differs.
+
+    With the cost of a result of `one`, limits of `other` that its run would not have come to make no difference either.
+    """
+    if one.get("hash") == other.get("hash"):
+        return True
+    of_no_effect = OF_NO_EFFECT if _comes_to_limit(one, other, cost or {}) else (*OF_NO_EFFECT, STEPS_OF_SOUND)
+    return _as_read_by(solver, one, of_no_effect) == _as_read_by(solver, other, of_no_effect)
 
 
-def _as_read_by(solver: str, settings: dict) -> dict:
+def _comes_to_limit(one: dict, other: dict, cost: dict) -> bool:
+    """Whether a run of `one` took, or would have taken, as many steps of sound at a time as either case allows.
+
+    It does not where sound has never bound a step and `other` allows no fewer, or where a step had, on the average, fewer by one
+    than either allows (the limit of a scene's forces, which alone changes from step to step, moves that by less).
+    """
+    allowed = [case.get("numerics", {}).get(STEPS_OF_SOUND) for case in (one, other)]
+    if None in allowed or not {"steps", "acoustic_steps", "time_step_binding"} <= cost.keys():
+        return True
+    never_bound = not {"acoustic", "force"} & cost["time_step_binding"].keys()
+    if never_bound and allowed[1] >= allowed[0]:
+        return False
+    return cost["acoustic_steps"] > (min(allowed) - 1) * cost["steps"]
+
+
+def _as_read_by(solver: str, settings: dict, of_no_effect: tuple[str, ...] = OF_NO_EFFECT) -> dict:
     """A resolved case without what does not decide what is computed: where files lie, and numerics that the solver does not read."""
     rest = {key: value for key, value in settings.items() if key not in ("hash", "case_file", "numerics")}
     rest["bodies"] = [{key: value for key, value in body.items() if key != "file"} for body in settings.get("bodies") or []]
     numerics = settings.get("numerics") or {}
-    read = [key for key in numerics if (key in READ_BY_REFERENCE if solver == "openfoam" else key not in ("openfoam", *OF_NO_EFFECT))]
+    read = [key for key in numerics if (key in READ_BY_REFERENCE if solver == "openfoam" else key not in ("openfoam", *of_no_effect))]
     # A result without a resolved case beside its hash is known by that alone.
     known = {} if "numerics" in settings else {"hash": settings.get("hash")}
     return rest | known | {"numerics": {key: numerics[key] for key in read}}
@@ -88,7 +111,7 @@ def _fit_to_keep(place: ResultPlace, present: dict) -> dict:
                          "commit the changes, build and run it again")
     if not _git("cat-file", "-e", f"{commit}^{{commit}}").ok:
         raise CupelError(f"{place}: its commit {commit} is not in this repository; run it again")
-    if not same_case(place.solver, result["settings"], present):
+    if not same_case(place.solver, result["settings"], present, result.get("cost")):
         raise CupelError(f"{place}: the case file resolves to something else now (its hash differs); run it again")
     return result
 
@@ -148,7 +171,7 @@ def age(result: dict) -> str:
     """What has changed since a kept result was made, in words; empty if nothing that it depends on has."""
     commit, parts = result["code"]["commit"], []
     present = present_case(result["case"], result["variant"])
-    if present is not None and not same_case(result["solver"], result["settings"], present):
+    if present is not None and not same_case(result["solver"], result["settings"], present, result.get("cost")):
         parts.append("the case resolves to something else now")
     for what, paths in (("the solver", DEPENDS_ON.get(result["solver"], ())), ("the measures", MEASURED_BY)):
         if not paths:
@@ -188,7 +211,7 @@ def regression_rows(fresh: dict) -> list[Row]:
     if kept is None or fresh["status"] != "completed":
         return []
     name = f"kept result of {kept['code']['commit']}"
-    if not same_case(fresh["solver"], kept["settings"], fresh["settings"]):
+    if not same_case(fresh["solver"], kept["settings"], fresh["settings"], kept.get("cost")):
         return [_row(fresh, "kept_result", note=f"{name} is of other settings: not compared; keep the fresh one")]
     before = {measure["name"]: measure for measure in kept["measures"]}
     return [_moved(fresh, measure, before[measure["name"]], name) for measure in fresh["measures"] if measure["name"] in before]

@@ -100,13 +100,15 @@ public:
     template <class Scalar> struct Kick
     {
         VectorOf<Scalar> change, by_surface;
+        VectorOf<Scalar> more_than_next; ///< before an evaluation's second half: by how much the surface gives more
     };
     template <class At> Kick<typename At::Scalar> kick(const At& at, const KickTimes& times) const;
-    /// Its work, where the velocity is `mean` on the average of it.
+    /// Its work, where the velocity is `mean_velocity` on the average of it, and `mean_for_pressure` on that of what
+    /// compression answers.
     template <class At>
-    WorkOnMotion<typename At::Scalar> work(const At& at, const Kick<typename At::Scalar>& kick,
-                                           const VectorOf<typename At::Scalar>& mean_velocity,
-                                           const KickTimes& times) const;
+    WorkOnMotion<typename At::Scalar>
+    work(const At& at, const Kick<typename At::Scalar>& kick, const VectorOf<typename At::Scalar>& mean_velocity,
+         const VectorOf<typename At::Scalar>& mean_for_pressure, const KickTimes& times) const;
     /// e of a particle, J/kg.
     virtual double elastic_energy(Index i) const;
     /// ½ m v² + m e of all that moves, J.
@@ -197,31 +199,36 @@ template <class At> Flow::Kick<typename At::Scalar> Flow::kick(const At& at, con
 {
     using Scalar = typename At::Scalar;
     const Scalar per_mass = Scalar(1.0) / at(particles_.mass);
-    Kick<Scalar> kick{Scalar(times.sound - times.slow) * (per_mass * at(pressure_force_) + vector<Scalar>(gravity_)),
-                      {}};
+    Kick<Scalar> kick{
+        Scalar(times.sound - times.slow) * (per_mass * at(pressure_force_) + vector<Scalar>(gravity_)), {}, {}};
     if (times.slow > 0.0) kick.change += Scalar(times.slow) * at(acceleration_);
     if (!by_surface_) return kick;
     VectorOf<Scalar> impulse = Scalar(times.surface - times.slow) * at(*by_surface_);
     if (times.surface_before != 0.0) impulse += Scalar(times.surface_before) * at(*by_surface_before_);
     kick.by_surface = per_mass * impulse;
     kick.change += kick.by_surface;
+    if (times.surface_before != 0.0)
+        kick.more_than_next = (Scalar(-times.surface_before) * per_mass) * (at(*by_surface_) - at(*by_surface_before_));
     return kick;
 }
 
 template <class At>
-WorkOnMotion<typename At::Scalar> Flow::work(const At& at, const Kick<typename At::Scalar>& kick,
-                                             const VectorOf<typename At::Scalar>& mean_velocity,
-                                             const KickTimes& times) const
+WorkOnMotion<typename At::Scalar>
+Flow::work(const At& at, const Kick<typename At::Scalar>& kick, const VectorOf<typename At::Scalar>& mean_velocity,
+           const VectorOf<typename At::Scalar>& mean_for_pressure, const KickTimes& times) const
 {
     using Scalar = typename At::Scalar;
     const Scalar mass = at(particles_.mass);
-    const VectorOf<Scalar> path_of_sound = Scalar(times.sound) * mean_velocity, gravity = vector<Scalar>(gravity_),
+    const VectorOf<Scalar> path_of_pressure = Scalar(times.sound) * mean_for_pressure,
+                           path_of_sound = Scalar(times.sound) * mean_velocity, gravity = vector<Scalar>(gravity_),
                            pressure_force = at(pressure_force_);
     WorkOnMotion<Scalar> work;
-    work.pressure = dot(pressure_force, path_of_sound);
-    if (wall_force_) work.imbalance = dot(at(*wall_force_), path_of_sound);
+    work.pressure = dot(pressure_force, path_of_pressure);
+    if (wall_force_) work.imbalance = dot(at(*wall_force_), path_of_pressure);
     work.gravity = mass * dot(gravity, path_of_sound);
-    if (by_surface_) work.surface = mass * dot(kick.by_surface, mean_velocity);
+    if (by_surface_)
+        work.surface =
+            mass * dot(kick.by_surface, mean_velocity) + dot(pressure_force, path_of_sound - path_of_pressure);
     if (times.slow == 0.0) return work;
     const VectorOf<Scalar> path = Scalar(times.slow) * mean_velocity;
     work.viscosity = dot(at(viscous_force_), path);

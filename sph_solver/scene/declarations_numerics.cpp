@@ -95,7 +95,7 @@ Table numerics_declaration()
                "most steps by which sound is followed within one step of all else; 1 = as all else")
              .at_least(1)
              .at_most(8)
-             .or_else(4)
+             .or_else(6)
              .in_paper(1),
          quantity("thermal_time_step_factor", "1", "the thermal time-step limit is multiplied by it")
              .above(0)

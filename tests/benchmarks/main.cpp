@@ -127,7 +127,7 @@ std::vector<std::pair<std::string, MeltPoolScene>> model_scenes()
 }
 
 /// As case files have it by default; sound at one rate with all else where that is asked for.
-MeltPoolScene full_scene(int acoustic_substeps = 4)
+MeltPoolScene full_scene(int acoustic_substeps = 6)
 {
     MeltPoolScene scene{{"flow", "surface_tension", "marangoni", "heat", "melting"}};
     scene.shifting = 1.0;

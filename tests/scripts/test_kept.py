@@ -289,6 +289,20 @@ def test_a_case_is_the_same_to_a_solver_whatever_only_the_other_one_reads():
         assert not same_case(solver, {"hash": "a"}, {"hash": "b"}) and same_case(solver, {"hash": "a"}, {"hash": "a"})
 
 
+@pytest.mark.parametrize(("now", "steps_of_sound", "binding", "same"), [
+    (6, 3900, {"capillary": 1000}, True),                  # sound never bound: more steps of it could not have been taken
+    (6, 3000, {"acoustic": 990, "output": 10}, True),      # three and no more would fit, whatever is allowed
+    (6, 3990, {"acoustic": 990, "output": 10}, False),
+    (6, 3990, {"force": 1, "capillary": 999}, False),
+    (2, 3900, {"capillary": 1000}, False),                 # fewer than it took
+    (2, 1000, {"acoustic": 1000}, True)])
+def test_a_limit_that_a_run_did_not_come_to_makes_no_other_case(now, steps_of_sound, binding, same):
+    before, after = ({"hash": str(steps), "numerics": {"acoustic_substeps": steps}} for steps in (4, now))
+    cost = {"steps": 1000, "acoustic_steps": steps_of_sound, "time_step_binding": binding}
+    assert same_case("sph", before, after, cost) == same
+    assert not same_case("sph", before, after) and not same_case("sph", before, after, {"steps": 1000})
+
+
 def test_files_of_a_kept_case_are_named_as_the_repository_sees_them():
     table = ROOT / "validation_cases" / "common" / "bed_seed1.csv"
     settings = {"case_file": str(ROOT / "validation_cases" / "made" / "case.toml"), "bodies": [{"file": str(table)}, {"shape": "box"}]}
