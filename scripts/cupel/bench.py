@@ -1,7 +1,8 @@
 """`./cupel bench`: runs the benchmarks of the engine and makes one table of them.
 
 Rates are million particle updates a second of one core (CPU seconds of all threads), medians of repetitions of several
-steps each; `tests/benchmarks/README.md` says what each scene is.
+steps each, which take turns, since hosts slow down and recover by the minute; `tests/benchmarks/README.md` says what each
+scene is.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def run_benchmarks(mode: str, repetitions: int) -> dict:
     pattern = (f"^((plain|full|one_rate|naive)_[a-z]+/({'|'.join(counts)})/"
                f"|model_double/[a-z_]+/{largest_model}/|float_error/{largest_model})")
     command = [str(program("cupel_benchmarks")), f"--benchmark_filter={pattern}", "--benchmark_format=json",
-               f"--benchmark_repetitions={repetitions}"]
+               f"--benchmark_repetitions={repetitions}", f"--benchmark_enable_random_interleaving={str(repetitions > 1).lower()}"]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise CupelError(f"the benchmarks ended with status {done.returncode}: {done.stderr.strip() or 'no message'}")
@@ -45,7 +46,7 @@ def origin(command: str) -> dict:
 
 def arrange(rows: list[dict]) -> dict:
     """The benchmarks' rows as the table of keys: rates in million updates a second a core, bytes and ns a particle."""
-    rows = [row for row in rows if row.get("run_type") != "aggregate"]
+    rows = sorted((row for row in rows if row.get("run_type") != "aggregate"), key=lambda row: row.get("family_index", 0))
     names = list(dict.fromkeys(row["name"].split("/process_time")[0].split("/iterations")[0].split("/repeats")[0] for row in rows))
 
     def median(name: str, counter: str) -> float:
@@ -77,9 +78,8 @@ def arrange(rows: list[dict]) -> dict:
             if kind == "plain_double":
                 table["bytes_per_particle"][count] = round(median(name, "bytes_per_particle"), 1)
         elif kind == "plain_double":
-            one = next(row for row in rows if row["name"].startswith(f"{kind}/{rest[0]}/1/"))
-            two = next(row for row in rows if row["name"].startswith(f"{kind}/{rest[0]}/2/"))
-            table["thread_scaling"][count] = round(one["real_time"] / two["real_time"], 3)
+            one, two = (median(f"{kind}/{rest[0]}/{threads}/", "real_time") for threads in (1, 2))
+            table["thread_scaling"][count] = round(one / two, 3)
     return table
 
 
