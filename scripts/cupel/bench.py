@@ -1,8 +1,7 @@
 """`./cupel bench`: runs the benchmarks of the engine and makes one table of them.
 
 Rates are million particle updates a second of one core (CPU seconds of all threads), medians of repetitions of several
-steps each, which take turns, since hosts slow down and recover by the minute; `tests/benchmarks/README.md` says what each
-scene is.
+steps each; `tests/benchmarks/README.md` says what each scene is.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ def run_benchmarks(mode: str, repetitions: int) -> dict:
     pattern = (f"^((plain|full|one_rate|naive)_[a-z]+/({'|'.join(counts)})/"
                f"|model_double/[a-z_]+/{largest_model}/|float_error/{largest_model})")
     command = [str(program("cupel_benchmarks")), f"--benchmark_filter={pattern}", "--benchmark_format=json",
-               f"--benchmark_repetitions={repetitions}", f"--benchmark_enable_random_interleaving={str(repetitions > 1).lower()}"]
+               f"--benchmark_repetitions={repetitions}"]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise CupelError(f"the benchmarks ended with status {done.returncode}: {done.stderr.strip() or 'no message'}")

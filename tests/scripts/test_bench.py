@@ -26,7 +26,7 @@ def test_a_model_is_charged_what_it_adds():
     assert models == {"flow": {"time_ns": 1000.0, "bytes": 400.0}, "heat": {"time_ns": 1000.0, "bytes": 50.0}}
 
 
-def test_repetitions_that_took_turns_are_put_in_order_and_their_medians_count():
+def test_rows_in_any_order_are_put_in_that_of_scenes_and_medians_count():
     def row(family, name, seconds):
         return {"family_index": family, "name": f"{name}/process_time", "real_time": seconds, "updates_per_core_s": 1e6 / seconds,
                 "bytes_per_particle": 100.0 * family}
