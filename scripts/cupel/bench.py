@@ -45,7 +45,7 @@ def origin(command: str) -> dict:
 
 def arrange(rows: list[dict]) -> dict:
     """The benchmarks' rows as the table of keys: rates in million updates a second a core, bytes and ns a particle."""
-    rows = sorted((row for row in rows if row.get("run_type") != "aggregate"), key=lambda row: row.get("family_index", 0))
+    rows = [row for row in rows if row.get("run_type") != "aggregate"]
     names = list(dict.fromkeys(row["name"].split("/process_time")[0].split("/iterations")[0].split("/repeats")[0] for row in rows))
 
     def median(name: str, counter: str) -> float:
