@@ -15,6 +15,15 @@ tmp<volScalarField> mixture_viscosity(const Scene& scene, const volScalarField& 
     });
 }
 
+/// 2/(φ_P + φ_N) of a face's cells, φ the share of a cell that is not solid; at most 2.
+tmp<surfaceScalarField> nearness_of_solid(const Scene& scene, const Fields& fields)
+{
+    const PrimaryMaterial& primary = scene.primary;
+    const volScalarField solid("solid", map_field(fields.heat->temperature, "solid", dimless,
+                                                  [&primary](scalar t) { return 1 - primary.liquid_fraction(t); }));
+    return 1 / max(1 - fvc::interpolate(solid * fields.bounded_fraction()), scalar(0.5));
+}
+
 /// ∂u_k/∂x_k in cells for k = x, y, z [1/s]: net outflow along each axis by the cell's volume.
 tmp<volVectorField> rates_of_stretch(const surfaceScalarField& flux)
 {
@@ -23,11 +32,18 @@ tmp<volVectorField> rates_of_stretch(const surfaceScalarField& flux)
     axis.setOriented(false);
     return fvc::surfaceIntegrate(flux * axis);
 }
+
+tmp<surfaceScalarField> viscosity_on_faces(const Scene& scene, const Fields& fields, const volScalarField& viscosity)
+{
+    tmp<surfaceScalarField> result(fvc::interpolate(viscosity));
+    if (scene.physics.melting) result.ref() *= nearness_of_solid(scene, fields);
+    return result;
+}
 } // namespace
 
 ViscousStress::ViscousStress(const Scene& scene, const Fields& fields)
     : mesh_(fields.mesh), flux_(fields.flow->flux), viscosity_(mixture_viscosity(scene, fields.fraction)),
-      on_faces_(fvc::interpolate(viscosity_)),
+      on_faces_(viscosity_on_faces(scene, fields, viscosity_)),
       explicit_(dimensionedScalar("half_of_primary", dimPressure * dimTime, 0.5 * scene.primary.viscosity) *
                 localMin<scalar>(mesh_).interpolate(fields.bounded_fraction()))
 {}

@@ -9,6 +9,12 @@
 /// both. In ∇·(μ∇uᵀ) the rates of stretch ∂u_k/∂x_k are those of the fluxes, net outflow along each axis: they add up
 /// to nothing exactly, and see two faces where the cells' gradient sees two cells.
 ///
+/// Between melt and solid the velocity is zero at their face, half a cell from the melt's middle, and not in the middle
+/// of the solid's cell, where the drag of the mush holds it: a face's viscosity is the harmonic mean of its cells', a
+/// solid's being infinite, μ_f = μ 2/(φ_P + φ_N) with φ the share that is not solid. With μ_f = μ a film of melt was as
+/// good as a quarter of a cell deeper, and levelled 45, 29 and 24 % too fast where it is 2, 3 and 4 cells deep
+/// (validation_cases/melt_film; now 10, 4 and 0.5 %).
+///
 /// Damping D: the implicit term's coefficient of a cell's own velocity, Σ μ A/|d| over its faces by its volume, of μ
 /// what is implicit [kg/(m³ s)]. The momentum equation lets D act on the change of a face's flux, not on the flux: on
 /// the flux it would act, at a face between liquid and gas, on a velocity half a cell away from that of the liquid's

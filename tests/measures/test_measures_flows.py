@@ -155,6 +155,23 @@ def test_exact_wave_of_a_fortieth_of_a_spacing_has_little_error(form, cells_a_wa
     assert row["value"] < limit, row["value"]
 
 
+@pytest.mark.parametrize("form", ["lattice", "cells"])
+def test_solid_below_a_film_takes_no_part_in_its_wave(form):
+    """The film's depth is that of the liquid body, and what stands below it cancels."""
+    case, spacing, depth = wave_case(1.0 / 16.0, 0.25), 1.0 / 16.0, 0.25
+    above = waving(form, spacing, 0.0, 0.0025, depth)
+    solid = lattice([0, 0, -depth], [1, 0, 0], spacing, 2)
+    below = particles(solid, spacing, 2) if form == "lattice" else filled("cells", [0, 0, -depth], [1, 0, 0], spacing, 0.0)
+    both = replace(above, **{name: np.concatenate([getattr(below, name), getattr(above, name)])
+                             for name in ("position", "fraction", "volume", "extent") if getattr(above, name, None) is not None})
+    with_solid = {**case, "bodies": [{"shape": "box", "material": "liquid", "state": "solid", "lower": [0, 0, -depth], "upper": [1, 0, 0]},
+                                     *case["bodies"]]}
+    read = find_measure("wave_error").read
+    alone, joined = read(Snapshot(above, case)), read(Snapshot(both, with_solid))
+    assert joined.kept[1].depth == depth == alone.kept[1].depth
+    assert joined.beside["amplitude_m"] == pytest.approx(alone.beside["amplitude_m"], rel=1e-9)
+
+
 def test_a_wave_of_another_frequency_is_wrong_by_what_it_is_wrong(tmp_path):
     times = np.linspace(0.0, 1.6, 41)
     exact = capillary_wave_finite_depth.amplitude(times, *WAVE, 1.0)

@@ -3,7 +3,7 @@
     a = (2/L) integral of cos(k (x - x_0)) over the liquid = (2/L) sum V f cos(k (x - x_0)) (in 3-D over L times the width)
 
 L the length of the domain along x, a whole number of half waves; x_0 the lower end of the body, where its crest is. Elements inside the
-liquid cancel, so a sees waves far below the spacing. Cells are averages over their width, which their weight puts right.
+liquid, and those of its solid below it, cancel, so a sees waves far below the spacing. Cells are averages over their width, which their weight puts right.
 
     wave_error   root mean square over the snapshots of `between` of (a - a_exact)/a_0; reference 0
 """
@@ -48,9 +48,9 @@ class Wave:
 def wave_of(case: dict) -> Wave:
     """The wave of a resolved case.
 
-    Errors: MeasureError unless one box of primary material has a surface wave of which the domain holds whole half waves.
+    Errors: MeasureError unless one box of primary liquid has a surface wave of which the domain holds whole half waves.
     """
-    bodies = primary_bodies(case)
+    bodies = [body for body in primary_bodies(case) if body.get("state", "liquid") == "liquid"]
     shape = bodies[0].get("surface_wave") if len(bodies) == 1 and bodies[0].get("shape") == "box" else None
     if not shape:
         raise MeasureError("resolved case: the wave is known for one box of liquid with a surface_wave")
