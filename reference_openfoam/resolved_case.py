@@ -163,6 +163,8 @@ def _check(case: ResolvedCase) -> None:
 
 
 def _check_domain(case: ResolvedCase) -> None:
+    _require(not case.data["domain"].get("round_walls"), case, "domain.round_walls",
+             "is there, but this solver's walls are flat; run the case in SPH")
     for axis, name in enumerate("xyz"):
         if case.is_planar and name == "y":
             continue

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Collection
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,12 +16,15 @@ from .layout import ResultPlace
 from .results import read_kept, write_whole
 
 
-def check_results(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str, junit: Path) -> int:
+def check_results(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str, junit: Path,
+                  refused: Collection[tuple[str, str]] = ()) -> int:
     """Judges every wanted result; writes `junit`; 0 if every row passes and none is missing, else 1.
+
+    refused: cases and solvers (`solvers.refusal`) of which there can be no result.
 
     Orders and uncertainties of the cases are printed too and written to results/CASE/convergence.json; they are not judged.
     """
-    rows, kept = gather(root, cases, solvers, variant)
+    rows, kept = gather(root, cases, solvers, variant, refused)
     for row in rows:
         print(f"{row.verdict:8} {row.case} {row.solver} {row.quantity}{describe(row)}")
     for case in cases:
@@ -37,7 +41,8 @@ def check_results(root: Path, cases: list[str], solvers: tuple[str, ...], varian
     return 1 if bad or not judged else 0
 
 
-def gather(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str) -> tuple[list[Row], list[str]]:
+def gather(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str,
+           refused: Collection[tuple[str, str]] = ()) -> tuple[list[Row], list[str]]:
     """All rows of the wanted results, with the trends over them, and a line for each kept result that is used or outdated.
 
     A result that has not been run is stood in for by the kept one; a missing one gives a row that says so.
@@ -46,6 +51,8 @@ def gather(root: Path, cases: list[str], solvers: tuple[str, ...], variant: str)
     for case in cases:
         fill_solver_references(root, case, variant)
         for solver in solvers:
+            if (case, solver) in refused:
+                continue
             place = ResultPlace(root, case, solver, variant)
             judged = judged_at(place)
             rows += judged.rows

@@ -21,6 +21,7 @@ from .formulations import DEFAULT, FORMULATIONS, overrides_of, variant_of
 from .jobs import Job
 from .layout import LEVELS, SOLVERS, TIERS, ResultPlace, places, results_root
 from .runner import Runner
+from .solvers import refusal
 
 app = typer.Typer(
     name="cupel", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None,
@@ -74,10 +75,13 @@ def run(
     resolved = [member.resolve(level.value, overrides) for member in chosen]
     solvers = solvers_of(solver, formulation)
     cores = len(os.sched_getaffinity(0))
-    slots = min(jobs or cores, len(resolved) * len(solvers))
+    wanted = [(case, name) for case in resolved for name in solvers if not left_out(name, case)]
+    if not wanted:
+        raise CupelError("nothing is left to run", status=2)
+    slots = min(jobs or cores, len(wanted))
     work = [
         Job(ResultPlace(root, case["name"], name, variant), case, threads=threads or max(1, cores // slots), resume=resume)
-        for case in resolved for name in solvers
+        for case, name in wanted
     ]
     interrupted = Runner(work, slots, make_display(quiet)).run()
     for case in resolved:
@@ -92,6 +96,14 @@ def run(
     if bad:
         raise CupelError(f"{len(bad)} of {len(work)} runs did not complete: {', '.join(str(job.place) for job in bad)}")
     return 0
+
+
+def left_out(solver: str, case: dict) -> bool:
+    """Whether a solver cannot run a resolved case, which is then said."""
+    why = refusal(solver, case)
+    if why:
+        print(f"cupel: {case['name']}: left out of {solver}: {why}", file=sys.stderr)
+    return why is not None
 
 
 @app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
@@ -115,9 +127,11 @@ def check(
     from .check import check_results
 
     root = results_root(results)
-    wanted = [member.name for member in case_files.select_members(names, tier and tier.value, level.value)]
+    members = case_files.select_members(names, tier and tier.value, level.value)
     solvers = solvers_of(solver, formulation)
-    return check_results(root, wanted, solvers, variant or variant_of(level.value, formulation.value), junit or root / "check.xml")
+    refused = {(member.name, name) for member in members for name in solvers if refusal(name, member.resolve(level.value))}
+    return check_results(root, [member.name for member in members], solvers, variant or variant_of(level.value, formulation.value),
+                         junit or root / "check.xml", refused)
 
 
 @app.command()

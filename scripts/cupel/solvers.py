@@ -21,6 +21,13 @@ def command(solver: str, case_file: Path, folder: Path, threads: int, resume: bo
     return line + ["--resume"] if resume else line
 
 
+def refusal(solver: str, resolved: dict) -> str | None:
+    """Why a solver has no result of a resolved case; None where it can have one."""
+    if solver == "openfoam" and resolved["domain"].get("round_walls"):
+        return "its walls are flat, and those of the case are round"
+    return None
+
+
 def environment(threads: int) -> dict[str, str]:
     """Environment of a solver: the repository's Python packages, and no more threads than it was given."""
     paths = f"{ROOT / 'scripts'}:{ROOT}"

@@ -36,6 +36,7 @@ void Simulation::set_bounds()
     wall_upper_ = {upper[0] - wall(1), upper[1] - wall(3), upper[2] - wall(5)};
     for (const double x : {wall_lower_.x, wall_lower_.y, wall_lower_.z, wall_upper_.x, wall_upper_.y, wall_upper_.z})
         has_walls_ = has_walls_ || std::isfinite(x);
+    has_walls_ = has_walls_ || scene_.definition.domain.round_walls.has_value();
     if (open) escaped_ = &particles.add_scalar({"escaped", "1"});
 }
 
@@ -83,6 +84,21 @@ void Simulation::hold_before_walls(double unanswered)
         hold(position.x[k], velocity.x[k], wall_lower_.x, wall_upper_.x, &Vector::x);
         hold(position.y[k], velocity.y[k], wall_lower_.y, wall_upper_.y, &Vector::y);
         hold(position.z[k], velocity.z[k], wall_lower_.z, wall_upper_.z, &Vector::z);
+        if (const auto& round = scene_.definition.domain.round_walls) {
+            const Vector center{round->center[0], 0.0, round->center[2]}, arm = position[i] - center;
+            const double distance = norm(arm), margin = 0.1 * scene_.spacing;
+            const double least = round->inner_radius ? *round->inner_radius + margin : 0.0;
+            const double most = round->outer_radius ? *round->outer_radius - margin : distance;
+            const double held = std::clamp(distance, least, most);
+            if (held == distance) return sum;
+            const Vector outward = (1.0 / distance) * arm;
+            position.set(i, center + held * outward);
+            const double speed = dot(velocity[i], outward);
+            if (speed * (distance - held) <= 0.0) return sum;
+            velocity.set(i, velocity[i] - speed * outward);
+            sum.stops -= 0.5 * particles.mass[i] * speed * speed;
+            sum.by_pressure += unanswered * dot(flow_->pressure_force(i), outward) * speed;
+        }
         return sum;
     });
     flow_->books().stops += held.stops;

@@ -51,15 +51,18 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
     if (two_phase_) smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
     if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
+        const auto vector = [&](const char* name) -> VectorField& { return particles_.add_vector({name, "1"}); };
+        wall_depth_ = &particles_.scalar("wall_depth");
+        if (particles_.has("wall_curvature")) wall_curvature_ = &particles_.scalar("wall_curvature");
         // A wall that the scene does not give an angle is neutral: the surface meets it at right angles.
         contact_angle_ = scene.definition.requires_physics("wetting") ? scene.materials.front().contact_angle.value()
                                                                       : 0.5 * std::numbers::pi;
         wall_interface_.emplace(WallInterface{
-            mobility_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
-            particles_.vector("wall_normal"), particles_.scalar("wall_depth"), fields_,
-            two_phase_ ? *smoothed_curvature_ : fields_.curvature, scalar("wall_weight_sum"), scalar("wall_cosine_sum"),
-            scalar("wall_distance_sum"), scalar("wall_curvature_sum"), particles_.add_vector({"wall_foot_sum", "1"}),
-            particles_.add_vector({"wall_lateral_sum", "1"}), scalar("wall_primary_sum"), scalar("wall_other_sum")});
+            mobility_, two_phase_ ? 0.0 : h_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
+            particles_.vector("wall_normal"), fields_, two_phase_ ? *smoothed_curvature_ : fields_.curvature,
+            scalar("wall_weight_sum"), vector("wall_normal_sum"), vector("wall_place_sum"),
+            scalar("wall_curvature_sum"), vector("wall_foot_sum"), vector("wall_lateral_sum"),
+            scalar("wall_primary_sum"), scalar("wall_other_sum")});
         if (needs_curvature_ && scene.definition.numerics.contact_line_force && !overhangs(two_phase_, contact_angle_))
         {
             wall_pull_ = &particles_.add_vector({"wall_pull", "1"});
@@ -126,7 +129,7 @@ void SurfaceTracker::wet_walls(const Neighbourhood& neighbourhood)
     find_band(neighbourhood);
     if (contact_pull_)
         for_each_pair(list, particles_, kernel_, wetting,
-                      ContactPull{mobility_, spacing_, wall_interface_->wall_normal, wall_interface_->wall_depth,
+                      ContactPull{mobility_, spacing_, wall_interface_->wall_normal, *wall_depth_,
                                   wall_interface_->weight_sum, *wall_pull_, *contact_pull_});
 }
 
@@ -139,7 +142,7 @@ void SurfaceTracker::finish_gradient(Index i)
     fields_.delta[i] = defined ? (two_phase_ ? 1.0 : 2.0) * slope : 0.0;
     fields_.normal.set(i, defined ? (1.0 / slope) * gradient : Vector{});
     // A cluster without any surface is skipped by the curvature fit: what it found the last time must not be left.
-    fields_.curvature_valid[i] = 0.0;
+    fields_.curvature_share[i] = 0.0;
     fields_.in_band[i] = slope * h_ > thresholds_.band ? 1.0 : 0.0;
     const double reach = 2.5 * h_;
     fields_.depth[i] = std::clamp(profile_.depth(fields_.smoothed_colour[i]), two_phase_ ? -reach : 0.0, reach);
@@ -157,6 +160,43 @@ bool SurfaceTracker::meets_surface(Index top) const
     const double primary = wall_interface_->primary_sum[top], other = wall_interface_->other_sum[top];
     const double wedge = contact_angle_ / std::numbers::pi, all = primary + other;
     return primary > share * wedge * all && other > share * (1.0 - wedge) * all;
+}
+
+Vector SurfaceTracker::ContactLine::normal_of(double angle_cosine) const
+{
+    const double c = std::clamp(angle_cosine, -1.0, 1.0);
+    return std::sqrt(1.0 - c * c) * along + c * wall_normal;
+}
+
+/// What the sums of a particle of the wall's surface layer say of the contact line before it. Where the wall is round
+/// its normal is that of the place to which the line from the interface's mean place leads, across the mean of its
+/// normal and Young's.
+SurfaceTracker::ContactLine SurfaceTracker::contact_line(Index top) const
+{
+    const WallInterface& wall = *wall_interface_;
+    const double scale = 1.0 / wall.weight_sum[top];
+    const Vector seen = scale * wall.normal_sum[top];
+    ContactLine line{scale * wall.foot_sum[top], {}, wall.wall_normal[top], {}, 0.0, 0.0, 0.0};
+    line.curvature = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);
+    const Vector above = (*wall_depth_)[top] * wall.wall_normal[top]; // the wall's surface before the particle
+    const double wall_curvature = wall_curvature_ ? (*wall_curvature_)[top] : 0.0;
+    const auto look_from = [&](const Vector& place) {
+        const auto [normal, depth] = on_circle(above - place, wall.wall_normal[top], wall_curvature);
+        line.wall_normal = normal;
+        line.place = place + depth * normal;
+        const Vector lateral = wall.lateral_sum[top] - dot(wall.lateral_sum[top], normal) * normal;
+        line.along = (1.0 / std::max(norm(lateral), 1e-30)) * lateral;
+        line.cosine = dot(seen, normal);
+        line.height = dot(scale * wall.place_sum[top] - line.place, normal);
+        return -depth;
+    };
+    const double distance = look_from(line.foot);
+    if (wall_curvature != 0.0) {
+        const Vector continued = line.normal_of(std::cos(contact_angle_)) + line.normal_of(line.cosine);
+        const double aside = distance * dot(line.wall_normal, continued) / std::max(dot(line.along, continued), 1e-9);
+        look_from(line.place + std::clamp(aside, -2.0 * spacing_, 2.0 * spacing_) * line.along);
+    }
+    return line;
 }
 
 void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls)
@@ -180,37 +220,31 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
                 continue;
             }
             const Index top = particles_.place_of(parent);
-            const Vector lateral = wall.lateral_sum[top];
-            const double length = norm(lateral);
-            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && length > 0.0 && meets_surface(top)) {
-                const Vector inward = wall.wall_normal[i], along = (1.0 / length) * lateral;
-                const double scale = 1.0 / wall.weight_sum[top];
-                const double slope = scale * wall.curvature_sum[top] / (dimensions_ == 2 ? 1.0 : 2.0);
-                const double seen = scale * wall.cosine_sum[top];
-                const auto normal_of = [&](double cosine) {
-                    cosine = std::clamp(cosine, -1.0, 1.0);
-                    return std::sqrt(1.0 - cosine * cosine) * along + cosine * inward;
-                };
-                const double at_wall = std::clamp(seen - slope * scale * wall.distance_sum[top], -1.0, 1.0);
-                const Vector foot = scale * wall.foot_sum[top] + particles_.position[top] - particles_.position[i];
-                Vector normal = normal_of(young);
+            if (wall.weight_sum[top] > 1e-4 * kernel_at_zero / h_ && norm(wall.lateral_sum[top]) > 0.0 &&
+                meets_surface(top)) {
+                const ContactLine line = contact_line(top);
+                const Vector to_top = particles_.position[top] - particles_.position[i];
+                const Vector foot = line.foot + to_top;
+                Vector normal = line.normal_of(young);
                 double depth = 0.0;
                 if (overhanging) {
-                    const Vector at_foot = normal_of(young + slope * scale * wall.distance_sum[top]);
-                    std::tie(normal, depth) = on_circle(foot, at_foot, slope);
+                    const Vector at_foot = line.normal_of(young + line.curvature * line.height);
+                    std::tie(normal, depth) = on_circle(foot, at_foot, line.curvature);
                 }
                 else {
-                    const Vector continued = normal + normal_of(seen);
+                    const Vector continued = normal + line.normal_of(line.cosine);
                     if (two_phase_) {
-                        const Vector at_plane = wall.wall_depth[i] * inward;
-                        const double distance = dot(foot - at_plane, continued) / std::max(dot(along, continued), 1e-9);
-                        std::tie(normal, depth) = on_circle(at_plane + distance * along, normal, slope);
+                        const Vector at_plane = dot(line.place + to_top, line.wall_normal) * line.wall_normal;
+                        const double distance =
+                            dot(foot - at_plane, continued) / std::max(dot(line.along, continued), 1e-9);
+                        std::tie(normal, depth) = on_circle(at_plane + distance * line.along, normal, line.curvature);
                     }
                     else
                         depth = dot(foot, continued) / std::max(norm(continued), 1e-9);
                 }
+                const double at_wall = std::clamp(line.cosine - line.curvature * line.height, -1.0, 1.0);
                 if (wall_pull_ && i == top)
-                    wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * along);
+                    wall_pull_->set(i, (std::sqrt(1.0 - at_wall * at_wall) * (young - at_wall)) * line.along);
                 const double colour = std::clamp(0.5 + depth / spacing_, 0.0, 1.0);
                 fields_.colour[i] = colour;
                 fields_.normal.set(i, normal);
@@ -248,9 +282,11 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
     for_each_pair(
         neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
         TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, flatness, particles_.volume, fields_});
+    if (!two_phase_)
+        neighbourhood.for_each_moving([&](Index i) { fields_.curvature_share[i] *= share_of_surface(fields_, i, h_); });
     for_each_pair(
         neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-        CurvatureSmoothing{mobility_, fields_, fields_.curvature_valid, fields_.raw_curvature, fields_.curvature});
+        CurvatureSmoothing{mobility_, fields_, fields_.curvature_share, fields_.raw_curvature, fields_.curvature});
     if (two_phase_) neighbourhood.for_each_moving([&](Index i) { (*smoothed_curvature_)[i] = fields_.curvature[i]; });
     if (sharpens_) sharpen_curvature(neighbourhood, greatest);
 }
@@ -268,7 +304,7 @@ void SurfaceTracker::sharpen_curvature(const Neighbourhood& neighbourhood, doubl
 {
     const auto smooth = [&](const ScalarField& value, ScalarField& smoothed) {
         for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      CurvatureSmoothing{mobility_, fields_, fields_.curvature_valid, value, smoothed});
+                      CurvatureSmoothing{mobility_, fields_, fields_.curvature_share, value, smoothed});
     };
     double kernels_passed = 4.0;
     if (two_phase_) {

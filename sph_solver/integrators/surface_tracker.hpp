@@ -37,7 +37,7 @@ public:
     void reset(Index place)
     {
         fields_.delta[place] = 0.0;
-        fields_.curvature_valid[place] = 0.0;
+        fields_.curvature_share[place] = 0.0;
         fields_.curvature[place] = 0.0;
     }
     /// Whether a particle has too few companions to be part of a body of liquid. As of the last update.
@@ -45,11 +45,27 @@ public:
     double fewest_companions() const { return thresholds_.fewest_companions * full_companions_; }
 
 private:
+    /// The line at which the surface meets a wall, as a particle of the wall sees it; places relative to that.
+    struct ContactLine
+    {
+        Vector foot;        ///< mean place of the interface near the wall, m
+        Vector place;       ///< where it meets the wall, m
+        Vector wall_normal; ///< there
+        Vector along;       ///< out of the liquid, along the wall
+        double cosine;      ///< ⟨n̂⟩·N
+        double height;      ///< mean height of what the sums are made of above the wall's plane there, m
+        double curvature;   ///< of the interface along the meridian, 1/m
+
+        /// sin θ t̂ + cos θ N
+        Vector normal_of(double angle_cosine) const;
+    };
+
     void finish_gradient(Index i);
     void find_band(const Neighbourhood& neighbourhood);
     std::vector<Index> clusters_of_walls(const Neighbourhood& neighbourhood) const;
     void wet_walls(const Neighbourhood& neighbourhood);
     bool meets_surface(Index top) const;
+    ContactLine contact_line(Index top) const;
     void prescribe_wall_normals(const Neighbourhood& neighbourhood, const std::vector<Index>& walls);
     void find_normals(const Neighbourhood& neighbourhood);
     void fit_curvature(const Neighbourhood& neighbourhood);
@@ -69,7 +85,9 @@ private:
     bool sharpens_; ///< only where the load is carried into the liquid: a band that bears it does not stand the noise
     double spacing_, h_, full_companions_;
     std::optional<WallInterface> wall_interface_;
-    double contact_angle_ = 0.0; ///< through the primary liquid, rad
+    const ScalarField* wall_depth_ = nullptr;
+    const ScalarField* wall_curvature_ = nullptr; ///< null where walls are flat
+    double contact_angle_ = 0.0;                  ///< through the primary liquid, rad
     VectorField* wall_pull_ = nullptr;
     VectorField* contact_pull_ = nullptr;
 };

@@ -20,12 +20,12 @@ struct SurfaceFields
     ScalarField& companions;      ///< neighbours of any kind within counting_reach, itself included
     VectorField& normal;          ///< n̂, out of the liquid
     VectorField& smoothed_normal;
-    ScalarField& delta;         ///< δ, 1/m: its integral across the surface is one
-    ScalarField& in_band;       ///< 1 where |∇c| h marks the surface itself
-    ScalarField& depth;         ///< distance below the surface, positive in the liquid, m
-    ScalarField& raw_curvature; ///< ∇·n̂, 1/m
-    ScalarField& curvature_valid;
-    ScalarField& curvature; ///< raw_curvature smoothed over the band
+    ScalarField& delta;           ///< δ, 1/m: its integral across the surface is one
+    ScalarField& in_band;         ///< 1 where |∇c| h marks the surface itself
+    ScalarField& depth;           ///< distance below the surface, positive in the liquid, m
+    ScalarField& raw_curvature;   ///< ∇·n̂, 1/m
+    ScalarField& curvature_share; ///< how much raw_curvature counts where it is smoothed; 0 where there is none
+    ScalarField& curvature;       ///< raw_curvature smoothed over the band
 
     static SurfaceFields register_in(Particles& particles)
     {
@@ -38,16 +38,20 @@ struct SurfaceFields
         return {scalar("colour", "1"),          vector("colour_gradient", "1/m"), scalar("smoothed_colour", "1"),
                 scalar("companions", "1"),      vector("surface_normal", "1"),    vector("smoothed_normal", "1"),
                 scalar("surface_delta", "1/m"), scalar("surface_band", "1"),      scalar("surface_depth", "m"),
-                scalar("raw_curvature", "1/m"), scalar("curvature_valid", "1"),   scalar("curvature", "1/m")};
+                scalar("raw_curvature", "1/m"), scalar("curvature_share", "1"),   scalar("curvature", "1/m")};
     }
 };
 
-/// How far a particle belongs to the surface's first layer, by |∇c| h: it is 0.46 there on a lattice, 0.04 in the
-/// second layer.      [1]
+/// How far a particle belongs to the surface's first layer, by |∇c| h and by its depth: on a lattice they are 0.46 and
+/// 0.5 h there, 0.04 and 1.5 h in the second layer. Depth decides where the first layer is loose: what lies below it
+/// has a |∇c| h of up to 0.25 there, but normals of noise, and a curvature of the limit's size. As a load on the
+/// surface that drove what was loose apart (static_drop_free_la120_jitter).      [1]
 inline double share_of_surface(const SurfaceFields& surface, Index i, double smoothing_length)
 {
     if (!(surface.delta[i] > 0.0)) return 0.0;
-    return std::clamp((norm(surface.colour_gradient[i]) * smoothing_length - 0.15) / 0.15, 0.0, 1.0);
+    const double slope = norm(surface.colour_gradient[i]) * smoothing_length;
+    return std::clamp((slope - 0.15) / 0.15, 0.0, 1.0) *
+           std::clamp((1.25 - surface.depth[i] / smoothing_length) / 0.5, 0.0, 1.0);
 }
 
 /// Thresholds of the surface band, all relative to the smoothing length h.
@@ -302,7 +306,7 @@ struct TangentPlaneCurvature
             const Index i = cluster.first + lane;
             if (mobility.weight[i] == 0.0) continue;
             surface.raw_curvature[i] = 0.0;
-            surface.curvature_valid[i] = 0.0;
+            surface.curvature_share[i] = 0.0;
             if (!(surface.delta[i] >= smallest_delta)) continue;
             const double xx = sum.xx[lane], xy = sum.xy[lane], yy = sum.yy[lane];
             double trace = 0.0, product = 0.0;
@@ -320,17 +324,18 @@ struct TangentPlaneCurvature
             surface.depth[i] += flatness * std::clamp(trace, -greatest_curvature, greatest_curvature);
             const double curvature = of_parallel_surface(trace, product, surface.depth[i]);
             surface.raw_curvature[i] = std::clamp(curvature, -greatest_curvature, greatest_curvature);
-            surface.curvature_valid[i] = 1.0;
+            surface.curvature_share[i] = 1.0;
         }
     }
 };
 
-/// κ̄_i = Σ_j κ_j δ_j W_ij / Σ_j δ_j W_ij over the particles that have a curvature      [1/m]
+/// κ̄_i = Σ_j κ_j q_j δ_j W_ij / Σ_j q_j δ_j W_ij over the particles that have a curvature      [1/m]
+/// q: beside one liquid in nothing what of a particle is the surface's first layer (share_of_surface), between two one
 struct CurvatureSmoothing
 {
     Mobility mobility;
     SurfaceFields surface;
-    const ScalarField& valid; ///< above zero where there is a curvature
+    const ScalarField& share; ///< q; zero where there is no curvature
     const ScalarField& value; ///< κ
     ScalarField& smoothed;    ///< κ̄; zero where the surface bears no force
 
@@ -352,7 +357,7 @@ struct CurvatureSmoothing
     Near near(Index) const { return {}; }
     Far far(Index j) const
     {
-        const double weight = valid[j] > 0.0 ? surface.delta[j] : 0.0;
+        const double weight = share[j] > 0.0 ? share[j] * surface.delta[j] : 0.0;
         return {real(weight), real(weight * value[j])};
     }
     bool ignores(const Far& j) const { return j.weight == 0; }

@@ -9,8 +9,8 @@
 namespace cupel::inline CUPEL_ENGINE
 {
 
-/// Wetting of a flat wall: what the wall's particles show of the surface that meets it, and what the surface's angle
-/// is.
+/// Wetting of a wall, flat or round: what the wall's particles show of the surface that meets it, and what the
+/// surface's angle is.
 ///
 /// A wall particle near the contact line shows the interface as it goes on beyond the wall's plane: its normal n̂_w, the
 /// signed depth s below it, and with that the colour c = clamp(½ + s/Δx) and the weight δ = w(s). It then takes part in
@@ -20,7 +20,8 @@ namespace cupel::inline CUPEL_ENGINE
 ///   n̂_Y = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
 ///   normal.
 ///
-/// Means ⟨ ⟩ are over the band near the wall, of weight W_wj δ_j; f = ⟨x_j + s_j n̂_j⟩ is a place of the interface, and
+/// Means ⟨ ⟩ are over the band near the wall, of weight W_wj δ_j (under a free surface times share_of_surface: normals
+/// below its first layer are noise); f = ⟨x_j + s_j n̂_j⟩ is a place of the interface, and
 /// m̂ the mean of n̂_Y and the liquid's mean normal: on a circle the plane through f across m̂ meets the wall's where the
 /// circle does.
 ///
@@ -33,10 +34,12 @@ namespace cupel::inline CUPEL_ENGINE
 ///   with the normal that Young's angle in the wall's plane gives it,   n̂·N = cos θ_Y + κ_m ⟨d_j⟩.   With n̂_Y in all
 ///   layers a drop of 150° spreads by 4.7° with 40 spacings a diameter.
 ///
-/// Where a circle closes below the wall, so does what the wall shows.
+/// Where a circle closes below the wall, so does what the wall shows. N is that of the place at which the interface
+/// meets the wall, which on a round one is not that of the wall particle that looks: from there the line through f
+/// across m̂ meets the wall's surface. The sums are therefore of vectors, and N comes in when they are complete.
 ///
-/// The angle at which the surface meets the wall's plane, continued to it from the mean distance d above it by the
-/// curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
+/// The angle at which the surface meets the wall, continued to it from the mean height d above the wall's plane there
+/// by the curvature κ_m along the meridian (κ in the plane, ½κ in space as on a cap; κ is of the step before):
 ///
 ///   cos θ = ⟨n̂_j·N⟩ − κ_m ⟨d_j⟩
 ///
@@ -47,17 +50,17 @@ namespace cupel::inline CUPEL_ENGINE
 struct WallInterface
 {
     Mobility mobility;
-    double reach;            ///< liquid further than this from the wall is not asked, m
-    double smallest_delta;   ///< 1/m
+    double layer;          ///< h where the surface's first layer alone is asked (a free surface), m; 0: all of its band
+    double reach;          ///< liquid further than this from the wall is not asked, m
+    double smallest_delta; ///< 1/m
     double smallest_lateral; ///< of −∇c, 1/m
     const Particles& particles;
     const VectorField& wall_normal;
-    const ScalarField& wall_depth; ///< below the wall's plane, m
     SurfaceFields surface;
     const ScalarField& curvature; ///< κ, of the step before, 1/m
     ScalarField& weight_sum;      ///< Σ W δ
-    ScalarField& cosine_sum;      ///< Σ W δ n̂·N
-    ScalarField& distance_sum;    ///< Σ W δ d, d above the wall's plane
+    VectorField& normal_sum;      ///< Σ W δ n̂
+    VectorField& place_sum;       ///< Σ W δ (x − x_w)
     ScalarField& curvature_sum;   ///< Σ W δ κ
     VectorField& foot_sum;        ///< Σ W δ (x + s n̂ − x_w)
     VectorField& lateral_sum;     ///< Σ W δ t̂
@@ -67,7 +70,6 @@ struct WallInterface
     struct Near
     {
         VectorLanes wall_normal;
-        Lanes wall_depth;
     };
     struct Far
     {
@@ -76,8 +78,8 @@ struct WallInterface
     };
     struct Sum
     {
-        Lanes weight{}, cosine{}, distance{}, curvature{}, primary{}, other{};
-        VectorLanes lateral{}, foot{};
+        Lanes weight{}, curvature{}, primary{}, other{};
+        VectorLanes normal{}, place{}, lateral{}, foot{};
     };
 
     bool stands_for_surface(Index i) const
@@ -85,15 +87,19 @@ struct WallInterface
         const auto k = static_cast<std::size_t>(i);
         return particles.surface_parent[k] == particles.identity[k];
     }
+    double weight(Index j) const
+    {
+        return surface.delta[j] * (layer > 0.0 ? share_of_surface(surface, j, layer) : 1.0);
+    }
     bool idle(const Cluster& cluster) const
     {
         return none_in(cluster, [&](Index i) { return stands_for_surface(i); });
     }
-    Near near(Index first) const { return {lanes(wall_normal, first), lanes(wall_depth, first)}; }
+    Near near(Index first) const { return {lanes(wall_normal, first)}; }
     Far far(Index j) const
     {
         return {real(mobility.weight[j]), particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-                real(surface.delta[j]),   real(surface.depth[j]),
+                real(weight(j)),          real(surface.depth[j]),
                 real(curvature[j]),       real(surface.colour_gradient[j]),
                 real(surface.normal[j])};
     }
@@ -109,10 +115,9 @@ struct WallInterface
         const Lanes length = square_root(dot(along, along));
         const LaneMask takes_part = (length > Lanes(smallest_lateral)) & (height < Lanes(reach));
         const Lanes weight = select(takes_part, j.delta * pair.kernel, 0.0);
-        const VectorLanes normal = broadcast(j.normal);
         sum.weight += weight;
-        sum.cosine += weight * dot(normal, i.wall_normal);
-        sum.distance += weight * (height - i.wall_depth);
+        sum.normal += weight * broadcast(j.normal);
+        sum.place -= weight * pair.offset;
         sum.curvature += weight * j.curvature;
         sum.foot += weight * (broadcast(j.depth * j.normal) - pair.offset);
         sum.lateral += (weight / (length + 1e-30)) * along;
@@ -121,8 +126,8 @@ struct WallInterface
     {
         const unsigned chosen = lanes_where(cluster, [&](Index i) { return stands_for_surface(i); });
         store_lanes(weight_sum, cluster.first, chosen, sum.weight);
-        store_lanes(cosine_sum, cluster.first, chosen, sum.cosine);
-        store_lanes(distance_sum, cluster.first, chosen, sum.distance);
+        store_lanes(normal_sum, cluster.first, chosen, sum.normal);
+        store_lanes(place_sum, cluster.first, chosen, sum.place);
         store_lanes(curvature_sum, cluster.first, chosen, sum.curvature);
         store_lanes(foot_sum, cluster.first, chosen, sum.foot);
         store_lanes(lateral_sum, cluster.first, chosen, sum.lateral);

@@ -82,6 +82,11 @@ Domain domain_from(const json& table)
         boundary.temperature = optional_number(*found, "temperature");
         domain.boundaries[side] = boundary;
     }
+    if (present(table, "round_walls")) {
+        const json& walls = table.at("round_walls");
+        domain.round_walls = {walls.at("center").get<Vector3>(), optional_number(walls, "inner_radius"),
+                              optional_number(walls, "outer_radius")};
+    }
     return domain;
 }
 

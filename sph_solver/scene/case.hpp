@@ -80,11 +80,21 @@ enum class Side : std::size_t { x_min, x_max, y_min, y_max, z_min, z_max };
 
 inline constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
+/// Walls that are circles about one centre, in two dimensions: a cylinder that liquid lies on, a vessel that it lies
+/// in, or both. The domain is then what lies between them, and the sides of the box are open.
+struct RoundWalls
+{
+    Vector3 center{};                     ///< [m]
+    std::optional<double> inner_radius{}; ///< of the cylinder [m]
+    std::optional<double> outer_radius{}; ///< of the vessel [m]
+};
+
 struct Domain
 {
     Vector3 lower{};                                   ///< [m]
     Vector3 upper{};                                   ///< [m]
     std::array<std::optional<Boundary>, 6> boundaries; ///< y_min and y_max are empty in two dimensions
+    std::optional<RoundWalls> round_walls{};
 
     const std::optional<Boundary>& boundary(Side side) const { return boundaries[static_cast<std::size_t>(side)]; }
 };
@@ -187,8 +197,8 @@ struct Numerics
     double artificial_stress = 0;
     double artificial_heat = 0;
     double density_diffusion = 0;
-    double shifting = 0;                   ///< strength, 0 = off, 1 = full
-    std::string surface_load = "carried";  ///< "carried" or "continuum_force"
+    double shifting = 0;                  ///< strength, 0 = off, 1 = full
+    std::string surface_load = "carried"; ///< "carried" or "continuum_force"
     bool contact_line_force = true;
     std::optional<double> sound_speed;     ///< [m/s]
     double sound_speed_factor = 10;        ///< sound speed / greatest expected speed

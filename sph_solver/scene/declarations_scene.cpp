@@ -51,6 +51,19 @@ Table surface_wave_declaration()
     return table.with("shape", {"box"});
 }
 
+Table round_walls_declaration()
+{
+    return {"round_walls",
+            "walls that are circles about one centre, in two dimensions, for SPH: the domain is what lies between "
+            "them, on rings of particles; the sides of the box are open",
+            Table::Occurrence::once,
+            false,
+            false,
+            {vector("center", 3, "m", "centre of the circles").must(),
+             quantity("inner_radius", "m", "of a cylinder that liquid lies on; absent: there is none").above(0),
+             quantity("outer_radius", "m", "of a vessel that liquid lies in; absent: there is none").above(0)}};
+}
+
 } // namespace
 
 Table domain_declaration()
@@ -64,7 +77,7 @@ Table domain_declaration()
             true,
             false,
             {vector("lower", 3, "m", "least x, y, z").must(), vector("upper", 3, "m", "greatest x, y, z").must()},
-            {boundaries}};
+            {boundaries, round_walls_declaration()}};
 }
 
 Table body_declaration()

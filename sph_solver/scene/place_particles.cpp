@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "scene/even_out.hpp"
+#include "scene/filling_grid.hpp"
 #include "scene/free_drop.hpp"
-#include "scene/powder_bed.hpp"
+#include "scene/round_walls.hpp"
 #include "scene/shape.hpp"
 
 namespace cupel
@@ -20,127 +24,6 @@ namespace
 
 /// Layers of wall particles: enough to complete a kernel of support 3 spacings.
 constexpr int wall_layers = 3;
-
-struct Lattice
-{
-    Vector lower;
-    double spacing;
-    std::array<int, 3> cells;
-
-    Vector point(const std::array<int, 3>& cell) const
-    {
-        const bool flat = cells[1] == 1;
-        return {lower.x + (cell[0] + 0.5) * spacing, flat ? 0.0 : lower.y + (cell[1] + 0.5) * spacing,
-                lower.z + (cell[2] + 0.5) * spacing};
-    }
-};
-
-/// What fills a lattice point.
-struct Filling
-{
-    Kind kind;
-    std::uint8_t material;
-};
-
-Lattice make_lattice(const Case& definition)
-{
-    const auto& lower = definition.domain.lower;
-    const auto& upper = definition.domain.upper;
-    const auto cells = [&](std::size_t axis) {
-        return static_cast<int>(std::lround((upper[axis] - lower[axis]) / definition.spacing));
-    };
-    return {{lower[0], lower[1], lower[2]},
-            definition.spacing,
-            {cells(0), definition.dimensions == 2 ? 1 : cells(1), cells(2)}};
-}
-
-std::array<double, 3> to_array(const Vector& a)
-{
-    return {a.x, a.y, a.z};
-}
-
-bool inside_sphere(const Vector& center, double radius, const Vector& p)
-{
-    const Vector offset = p - center;
-    return dot(offset, offset) < radius * radius;
-}
-
-/// Grid of what fills each lattice point; later bodies lie over earlier ones.
-class FillingGrid
-{
-public:
-    FillingGrid(const Lattice& lattice, std::optional<Filling> background)
-        : lattice_(lattice),
-          cells_(static_cast<std::size_t>(lattice.cells[0]) * static_cast<std::size_t>(lattice.cells[1]) *
-                     static_cast<std::size_t>(lattice.cells[2]),
-                 background)
-    {}
-
-    std::optional<Filling>& at(const std::array<int, 3>& cell)
-    {
-        return cells_[(static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(lattice_.cells[1]) +
-                       static_cast<std::size_t>(cell[1])) *
-                          static_cast<std::size_t>(lattice_.cells[0]) +
-                      static_cast<std::size_t>(cell[0])];
-    }
-
-    /// Fills the lattice points for which inside(point) holds, within a box that encloses them.
-    template <class Inside>
-    void fill(const Vector& lower, const Vector& upper, const Filling& filling, const Inside& inside)
-    {
-        std::array<int, 3> begin{}, end{};
-        const std::array<double, 3> low{lower.x, lower.y, lower.z}, high{upper.x, upper.y, upper.z};
-        const std::array<double, 3> origin{lattice_.lower.x, lattice_.lower.y, lattice_.lower.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool flat = axis == 1 && lattice_.cells[1] == 1;
-            const double first = std::floor((low[axis] - origin[axis]) / lattice_.spacing);
-            const double last = std::ceil((high[axis] - origin[axis]) / lattice_.spacing);
-            begin[axis] = flat ? 0 : static_cast<int>(std::clamp(first, 0.0, double(lattice_.cells[axis])));
-            end[axis] = flat ? 1 : static_cast<int>(std::clamp(last, 0.0, double(lattice_.cells[axis])));
-        }
-        std::array<int, 3> cell{};
-        for (cell[2] = begin[2]; cell[2] < end[2]; ++cell[2])
-            for (cell[1] = begin[1]; cell[1] < end[1]; ++cell[1])
-                for (cell[0] = begin[0]; cell[0] < end[0]; ++cell[0])
-                    if (inside(lattice_.point(cell))) at(cell) = filling;
-    }
-
-private:
-    Lattice lattice_;
-    std::vector<std::optional<Filling>> cells_;
-};
-
-Vector to_vector(const std::array<double, 3>& a)
-{
-    return {a[0], a[1], a[2]};
-}
-
-void fill_body(FillingGrid& grid, const Body& body, const Filling& filling, int dimensions)
-{
-    const Vector center = to_vector(body.center);
-    const auto inside = [&](const Vector& p) { return contains_undisturbed(body, to_array(p), dimensions); };
-    const auto fill_within = [&](const Vector& middle, double radius, const auto& inside_ball) {
-        const Vector reach{radius, radius, radius};
-        grid.fill(middle - reach, middle + reach, filling, inside_ball);
-    };
-    switch (body.shape) {
-    case BodyShape::box:
-        grid.fill(to_vector(body.lower), to_vector(body.upper), filling, inside);
-        break;
-    case BodyShape::sphere:
-        fill_within(center, body.radius, inside);
-        break;
-    case BodyShape::powder_bed: {
-        Body box = body;
-        box.shape = BodyShape::box;
-        for (const auto& grain : read_powder_bed(body.file))
-            if (contains_undisturbed(box, grain.center, dimensions))
-                fill_within(to_vector(grain.center), grain.radius,
-                            [&](const Vector& p) { return inside_sphere(to_vector(grain.center), grain.radius, p); });
-        break;
-    }
-    }
-}
 
 /// Random numbers from -1 to 1, the same ones on every machine.
 class Jitter
@@ -168,9 +51,10 @@ struct Placement
     std::uint8_t material;
     Vector wall_normal;
     bool free_slip;
-    std::optional<std::array<int, 3>> parent_cell;
-    double depth = 0;  ///< behind the plane of a wall, m
-    Vector velocity{}; ///< of a wall, m/s
+    std::optional<std::size_t> parent; ///< of a wall, the placement before it in the layer at its surface
+    double depth = 0;                  ///< behind the surface of a wall, m
+    Vector velocity{};                 ///< of a wall, m/s
+    double curvature = 0;              ///< of a wall, 1/m
 };
 
 /// Moves the particles of the undisturbed bodies to where a perturbation or a wave has them, and by random amounts
@@ -232,6 +116,8 @@ double place_free_drop(const Case& definition, bool two_phase, double lattice_vo
 void place_walls(const Case& definition, const Lattice& lattice, std::vector<Placement>& placements)
 {
     const std::array<int, 3> layers{wall_layers, definition.dimensions == 2 ? 0 : wall_layers, wall_layers};
+    std::map<std::array<int, 3>, std::size_t> placement_of_cell;
+    std::vector<std::pair<std::size_t, std::array<int, 3>>> parents;
     std::array<int, 3> cell{};
     for (cell[2] = -layers[2]; cell[2] < lattice.cells[2] + layers[2]; ++cell[2])
         for (cell[1] = -layers[1]; cell[1] < lattice.cells[1] + layers[1]; ++cell[1])
@@ -257,7 +143,8 @@ void place_walls(const Case& definition, const Lattice& lattice, std::vector<Pla
                 Placement wall{lattice.point(cell), Kind::wall, 0, (1.0 / length) * normal, free_slip, std::nullopt};
                 // Edges and corners have no surface of their own that a contact line could run on, or that moves.
                 if (outside == 1) {
-                    wall.parent_cell = parent;
+                    placement_of_cell[cell] = placements.size();
+                    parents.emplace_back(placements.size(), parent);
                     int behind = 0;
                     for (std::size_t axis = 0; axis < 3; ++axis) {
                         if (cell[axis] == std::clamp(cell[axis], 0, lattice.cells[axis] - 1)) continue;
@@ -269,6 +156,51 @@ void place_walls(const Case& definition, const Lattice& lattice, std::vector<Pla
                 }
                 placements.push_back(wall);
             }
+    for (const auto& [number, parent] : parents)
+        placements[number].parent = placement_of_cell.at(parent);
+}
+
+/// Liquid and walls where the walls are round; returns the volume of a particle of liquid.
+double place_round(const Case& definition, std::vector<Placement>& placements)
+{
+    const RoundPlaces places = place_between_round_walls(definition, wall_layers);
+    for (const Vector3& place : places.primary)
+        placements.push_back({to_vector(place), Kind::fluid, 0, {}, false, {}});
+    for (const Vector3& place : places.other)
+        placements.push_back({to_vector(place), Kind::fluid, 1, {}, false, {}});
+    const std::size_t first = placements.size();
+    for (const RoundWallPlace& wall : places.walls)
+        placements.push_back({to_vector(wall.position),
+                              Kind::wall,
+                              0,
+                              to_vector(wall.normal),
+                              false,
+                              first + wall.parent,
+                              wall.depth,
+                              {},
+                              wall.curvature});
+    return places.volume;
+}
+
+/// Liquid and solids on a lattice, and the walls around them; returns the volume of a particle of what is no wall.
+double place_on_lattice(const Case& definition, const Lattice& lattice, FillingGrid& grid, bool two_phase,
+                        bool any_fluid, std::vector<Placement>& placements)
+{
+    std::array<int, 3> cell{};
+    for (cell[2] = 0; cell[2] < lattice.cells[2]; ++cell[2])
+        for (cell[1] = 0; cell[1] < lattice.cells[1]; ++cell[1])
+            for (cell[0] = 0; cell[0] < lattice.cells[0]; ++cell[0])
+                if (const auto& filling = grid.at(cell))
+                    placements.push_back({lattice.point(cell), filling->kind, filling->material, {}, false, {}});
+    if (placements.empty())
+        throw CaseError("resolution: no particle fits into any body at a spacing of " +
+                        std::to_string(definition.spacing) + " m; choose a finer one");
+    const double lattice_volume = std::pow(definition.spacing, definition.dimensions);
+    const double volume = place_free_drop(definition, two_phase, lattice_volume, placements);
+    disturb(definition, placements);
+    // A scene that is solid to its borders needs no walls: nothing molten reaches them.
+    if (any_fluid) place_walls(definition, lattice, placements);
+    return volume;
 }
 
 /// A perfect lattice is an equilibrium of shifting, if not a stable one: in a flow it is stretched and sheared, with
@@ -327,20 +259,10 @@ Scene place_particles(const Case& definition)
     }
 
     std::vector<Placement> placements;
-    std::array<int, 3> cell{};
-    for (cell[2] = 0; cell[2] < lattice.cells[2]; ++cell[2])
-        for (cell[1] = 0; cell[1] < lattice.cells[1]; ++cell[1])
-            for (cell[0] = 0; cell[0] < lattice.cells[0]; ++cell[0])
-                if (const auto& filling = grid.at(cell))
-                    placements.push_back({lattice.point(cell), filling->kind, filling->material, {}, false, {}});
-    if (placements.empty())
-        throw CaseError("resolution: no particle fits into any body at a spacing of " +
-                        std::to_string(definition.spacing) + " m; choose a finer one");
     const double lattice_volume = std::pow(scene.spacing, scene.dimensions);
-    scene.particle_volume = place_free_drop(definition, scene.two_phase, lattice_volume, placements);
-    disturb(definition, placements);
-    // A scene that is solid to its borders needs no walls: nothing molten reaches them.
-    if (any_fluid) place_walls(definition, lattice, placements);
+    scene.particle_volume = definition.domain.round_walls
+                                ? place_round(definition, placements)
+                                : place_on_lattice(definition, lattice, grid, scene.two_phase, any_fluid, placements);
 
     scene.particles = std::make_unique<Particles>(static_cast<Index>(placements.size()));
     Particles& particles = *scene.particles;
@@ -351,14 +273,8 @@ Scene place_particles(const Case& definition)
     VectorField* wall_velocity = any_fluid && std::ranges::any_of(definition.domain.boundaries, moves)
                                      ? &particles.add_vector({"wall_velocity", "m/s"})
                                      : nullptr;
-    std::map<std::array<int, 3>, Index> identity_of_cell;
-    const auto cell_of = [&](const Vector& p) {
-        const auto index = [&](double x, double low) {
-            return static_cast<int>(std::floor((x - low) / scene.spacing));
-        };
-        return std::array<int, 3>{index(p.x, lattice.lower.x), flat ? 0 : index(p.y, lattice.lower.y),
-                                  index(p.z, lattice.lower.z)};
-    };
+    ScalarField* wall_curvature =
+        definition.domain.round_walls ? &particles.add_scalar({"wall_curvature", "1/m"}) : nullptr;
     for (Index i = 0; i < particles.count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Placement& placement = placements[k];
@@ -377,12 +293,10 @@ Scene place_particles(const Case& definition)
             (*free_slip)[i] = placement.free_slip ? 1.0 : 0.0;
             (*wall_depth)[i] = placement.depth;
             if (wall_velocity) wall_velocity->set(i, placement.velocity);
-            if (placement.parent_cell) identity_of_cell[cell_of(placement.position)] = i;
+            if (wall_curvature) (*wall_curvature)[i] = placement.curvature;
+            if (placement.parent) particles.surface_parent[k] = static_cast<Index>(*placement.parent);
         }
     }
-    for (Index i = 0; i < particles.count(); ++i)
-        if (const auto& placement = placements[static_cast<std::size_t>(i)]; placement.parent_cell)
-            particles.surface_parent[static_cast<std::size_t>(i)] = identity_of_cell.at(*placement.parent_cell);
     if (definition.numerics.shifting > 0.0 && !scene.two_phase) unsettle_lattice(particles, scene.spacing, flat);
     return scene;
 }

@@ -219,6 +219,35 @@ void check_domain(const json& values, const Node& document)
                       "initial.velocity.wavelength");
 }
 
+/// Round walls are for a drop of liquid in two dimensions, without heat, whose walls are the sides of the box.
+void check_round_walls(const json& values, const Node& document)
+{
+    if (!values.at("domain").contains("round_walls")) return;
+    const std::string path = "domain.round_walls";
+    const json& domain = values.at("domain");
+    const json& walls = domain.at("round_walls");
+    const bool inner = walls.contains("inner_radius"), outer = walls.contains("outer_radius");
+    if (values.at("dimensions") != 2)
+        refuse_at(document, path, "has a meaning in 2 dimensions only", "set dimensions = 2 or take it out");
+    if (walls.at("center")[1] != 0.0)
+        refuse_at(document, path + ".center", "lies outside the plane y = 0", "write \"0 m\" for y");
+    if (!inner && !outer) refuse_at(document, path, "names no wall", "give an inner_radius, an outer_radius or both");
+    if (inner && outer && walls.at("inner_radius") >= walls.at("outer_radius"))
+        refuse_at(document, path + ".outer_radius", "leaves nothing between the walls", "make it the greater one");
+    if (!outer && values.contains("surrounding") && values.at("surrounding").at("resolved") == true)
+        refuse_at(document, path, "has no vessel for the resolved surrounding", "add an outer_radius");
+    if (names_physics(values, "heat"))
+        refuse_at(document, path, "is there, but heat knows the sides of the box only", "take 'heat' out of physics");
+    for (const auto& [side, boundary] : domain.at("boundaries").items())
+        if (boundary.at("kind") != "open")
+            refuse_at(document, "domain.boundaries." + side + ".kind", "is a side of its own beside round walls",
+                      "make it \"open\"");
+    const json& body = values.at("body").at(0);
+    if (values.at("body").size() != 1 || body.at("shape") != "sphere" || body.at("state") != "liquid")
+        refuse_at(document, "body", "is not one sphere of liquid, as round walls need it",
+                  "take one or no round walls");
+}
+
 /// What is special about the start of a body.
 void check_start_of_body(const json& values, const Node& document, const json& body, const std::string& path)
 {
@@ -317,6 +346,7 @@ void check_rules(const json& values, const Node& document)
     check_material_data(values, document);
     check_domain(values, document);
     check_bodies(values, document);
+    check_round_walls(values, document);
     check_temperatures(values, document);
     check_powder(values, document);
 }

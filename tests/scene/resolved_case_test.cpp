@@ -300,6 +300,30 @@ TEST(TypedCase, FrozenTemperatureIsLinearFromTheLowerCorner)
     EXPECT_DOUBLE_EQ(layer.initial_temperature({6e-3, 0, 1e-3}), 306);
 }
 
+TEST(RoundWalls, AreRefusedWhereTheyMeanNothing)
+{
+    const std::string open = replaced(
+        drop_case,
+        R"(boundaries = { x_min.kind = "wall", x_max.kind = "wall", z_min.kind = "symmetry", z_max.kind = "open" })",
+        R"(boundaries = { x_min.kind = "open", x_max.kind = "open", z_min.kind = "open", z_max.kind = "open" }
+round_walls = { center = ["0 mm", "0 mm", "0 mm"], inner_radius = "0.4 mm" })");
+    const auto with = [&](const std::string& part, const std::string& other) {
+        return refusal(replaced(open, part, other));
+    };
+    EXPECT_EQ(refusal(open), "");
+    EXPECT_THAT(with(", inner_radius = \"0.4 mm\"", ""), HasSubstr("round_walls: names no wall"));
+    EXPECT_THAT(with("inner_radius = \"0.4 mm\"", "inner_radius = \"0.4 mm\", outer_radius = \"0.3 mm\""),
+                HasSubstr("outer_radius: leaves nothing between the walls"));
+    EXPECT_THAT(with("x_min.kind = \"open\"", "x_min.kind = \"wall\""),
+                HasSubstr("domain.boundaries.x_min.kind: is a side of its own beside round walls"));
+    EXPECT_THAT(with("state = \"liquid\"", "state = \"solid\""), HasSubstr("body: is not one sphere of liquid"));
+    EXPECT_THAT(with("center = [\"0 mm\", \"0 mm\"", "center = [\"0 mm\", \"1 mm\""), HasSubstr("plane y = 0"));
+    const Case definition = case_from_resolved(resolved(open));
+    ASSERT_TRUE(definition.domain.round_walls);
+    EXPECT_DOUBLE_EQ(*definition.domain.round_walls->inner_radius, 4e-4);
+    EXPECT_FALSE(definition.domain.round_walls->outer_radius);
+}
+
 TEST(Digest, IsSha256)
 {
     // FIPS 180-2, appendix B.1

@@ -15,6 +15,13 @@ where they differ.
     apex height:  top of a paraboloid fitted to the surface within 0.4 R (at least 3 spacings) of its highest point; for a
                   sphere that is exact to 0.001 R.
 
+On a round wall the same circle meets the wall's circle at the angle between their radii (exact/drop_on_round_wall.py), the base
+radius is half the chord between the points where both meet, and heights are distances from the wall:
+
+    base radius:  with rho the distance from the wall's centre and alpha the angle from the drop's axis,
+                  rho^2 = 2 D rho cos(alpha) + k  by least squares over the surface from 2 to 5 spacings from the wall (exact for
+                  every circle), base radius R sin(alpha) at rho = R.
+
 The resampling kernel moves a surface of radius R inward by s^2 (d - 1)/(2R), s^2 the variance of the kernel along an axis;
 points are moved back by that much.
 """
@@ -25,9 +32,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..exact.drop_on_round_wall import RoundCap, common_area
 from ..exact.spherical_cap import Cap
 from .fields import REACH, Resampled, active_axes, mirrored, subdivided
 from .registry import MeasureError, Reading, measure_of_snapshot
+from .round_walls import RoundWall, round_walls
 from .snapshot import Snapshot, look_up, primary_bodies, primary_material
 from .surface import SURFACE_DENSITY, cross_section, interface, largest_region
 
@@ -92,18 +101,25 @@ def drop_shape(snapshot: Snapshot) -> DropShape:
     if len(own) == 0:
         return _nothing("no primary material is left")
     lower, upper = own.min(axis=0) - 3.0 * spacing, own.max(axis=0) + 3.0 * spacing
-    lower[-1] = wall
+    round_wall = min(round_walls(case), key=lambda wall: np.median(wall.distance(own)), default=None)
+    if round_wall is None:
+        lower[-1] = wall
     for k, axis in enumerate(axes):   # images beyond the domain are not the drop
         lower[k] = max(lower[k], case["domain"]["lower"][axis])
         upper[k] = min(upper[k], case["domain"]["upper"][axis])
     resampled = Resampled(elements, case, lower, upper)
-    drop, share = largest_region(resampled.density >= SURFACE_DENSITY)
+    inside = resampled.density >= SURFACE_DENSITY
+    for one in round_walls(case):
+        nodes = np.stack(np.meshgrid(resampled.coordinates(0), resampled.coordinates(1), indexing="ij"), axis=-1)
+        inside &= one.distance(nodes.reshape(-1, 2)).reshape(inside.shape) >= 0.0
+    drop, share = largest_region(inside)
     if not drop.any():
         return _nothing("the primary material is nowhere dense enough to have a surface")
     notes = [] if share > 0.999 else [f"{100 * (1 - share):.1f} % of the primary material is apart from the drop"]
 
     surface = interface(resampled, drop)
-    above = surface.points[:, -1] > wall + WALL_LAYER * spacing
+    height = surface.points[:, -1] - wall if round_wall is None else round_wall.distance(surface.points)
+    above = height > WALL_LAYER * spacing
     points, weights = surface.points[above], surface.weights[above]
     if len(points) < 4 * len(axes):
         return _nothing("the drop is not higher than the layer at the wall that the fit leaves out")
@@ -112,8 +128,12 @@ def drop_shape(snapshot: Snapshot) -> DropShape:
     except MeasureError as problem:
         return _nothing(str(problem))
     shift = resampled.surface_variance * (len(axes) - 1) / (2.0 * radius)
+    nodes = resampled.origin + resampled.grid_spacing * np.argwhere(drop)
+    hollow = round_wall is not None and np.linalg.norm(nodes.mean(axis=0) - center) > radius
     outward = (points - center) / np.linalg.norm(points - center, axis=1, keepdims=True)
     points, radius = points + shift * outward, radius + shift
+    if round_wall is not None:
+        return _on_round_wall(points, weights, center, radius, bool(hollow), residual, round_wall, spacing, notes)
     if abs(center[-1] - wall) >= radius:
         touching = "floats above" if center[-1] > wall else "is a sheet below"
         return _nothing(f"the fitted sphere {touching} the wall and does not meet it")
@@ -130,10 +150,46 @@ def drop_shape(snapshot: Snapshot) -> DropShape:
     if abs(other - angle) > DIFFERENT_ANGLE:
         notes.append(f"not a cap: the sphere fit gives {np.degrees(angle):.1f} degrees, "
                      f"height and base {np.degrees(other):.1f}")
-    for what, of_interface, of_fit in (("base radius", base, base_of_fit), ("height", height, height_of_fit)):
-        if abs(of_interface - of_fit) > DIFFERENT_LENGTH * of_fit:
-            notes.append(f"{what} {of_interface:.4g} m from the interface, {of_fit:.4g} m from the sphere fit")
+    notes += _differences(base, base_of_fit, height, height_of_fit)
     return DropShape(angle, base, height, float(other), base_of_fit, height_of_fit, residual,
+                     tuple(float(c) for c in center), "; ".join(notes))
+
+
+def _differences(base: float, base_of_fit: float, height: float, height_of_fit: float) -> list[str]:
+    """What to say where the interface and the fit do not agree."""
+    return [f"{what} {of_interface:.4g} m from the interface, {of_fit:.4g} m from the sphere fit"
+            for what, of_interface, of_fit in (("base radius", base, base_of_fit), ("height", height, height_of_fit))
+            if abs(of_interface - of_fit) > DIFFERENT_LENGTH * of_fit]
+
+
+def _on_round_wall(points: np.ndarray, weights: np.ndarray, center: np.ndarray, radius: float, hollow: bool, residual: float,
+                   wall: RoundWall, spacing: float, notes: list[str]) -> DropShape:
+    """The shape of a drop on a round wall, from its surface outside the layer that the wall disturbs and the circle fitted to it."""
+    middle, sign = wall.center[[0, 2]], 1.0 if wall.inside else -1.0
+    distance = float(np.linalg.norm(center - middle))
+    if not abs(wall.radius - radius) < distance < wall.radius + radius:
+        return _nothing("the fitted circle does not meet the wall's")
+    cosine = sign * (distance**2 - wall.radius**2 - radius**2) / (2.0 * wall.radius * radius)
+    fitted = RoundCap(radius, wall.radius, float(np.arccos(cosine)), wall.inside)
+    angle, height_of_fit, axis = fitted.contact_angle, fitted.height, (center - middle) / distance
+    if hollow:   # liquid around the circle: the rest of the vessel
+        angle, height_of_fit, axis = np.pi - angle, 2.0 * wall.radius - fitted.height, -axis
+    along, across = (points - middle) @ axis, (points - middle) @ [axis[1], -axis[0]]
+    near = wall.distance(points) < BASE_LAYER * spacing
+    base = None
+    if np.count_nonzero(near) >= 6:
+        root, rho = np.sqrt(weights[near]), np.hypot(along, across)[near]
+        design = np.stack([2.0 * along[near], np.full(len(rho), spacing)], axis=1)
+        solution, _, rank, _ = np.linalg.lstsq(design * root[:, None], rho**2 * root, rcond=1e-8)
+        cosine = (wall.radius**2 - solution[1] * spacing) / (2.0 * solution[0] * wall.radius)
+        if rank == 2 and abs(cosine) < 1.0:
+            base = float(wall.radius * np.sqrt(1.0 - cosine**2))
+    if base is None:
+        notes.append("the drop is too low for its base to be taken from the interface: from the fit instead")
+        base = fitted.base_radius
+    height = sign * wall.radius + _apex(np.stack([across, -sign * along], axis=1), max(APEX_REACH * spacing, APEX_SHARE * radius))
+    notes += _differences(base, fitted.base_radius, height, height_of_fit)
+    return DropShape(float(angle), base, float(height), None, fitted.base_radius, float(height_of_fit), residual,
                      tuple(float(c) for c in center), "; ".join(notes))
 
 
@@ -192,7 +248,7 @@ def _reading(snapshot: Snapshot, value_of, beside_of) -> Reading:
     return Reading(value_of(shape), beside=beside_of(shape), note=shape.note)
 
 
-def _exact_cap(case: dict) -> Cap:
+def _exact_cap(case: dict) -> Cap | RoundCap:
     """The cap that the drop of the case must become."""
     bodies, wall = primary_bodies(case), float(case["domain"]["lower"][2])
     if len(bodies) != 1 or bodies[0].get("shape") != "sphere":
@@ -200,6 +256,13 @@ def _exact_cap(case: dict) -> Cap:
                            "give the reference's value in the case file")
     drop = bodies[0]
     angle = _exact_angle(case)
+    walls = round_walls(case)
+    if walls:
+        middle = np.array(drop["center"])[[0, 2]]
+        wall = min(walls, key=lambda one: abs(float(one.distance(middle[None, :])[0])))
+        shared = {one.inside: common_area(drop["radius"], one.radius, float(np.linalg.norm(middle - one.center[[0, 2]]))) for one in walls}
+        area = shared.get(True, np.pi * drop["radius"]**2) - shared.get(False, 0.0)
+        return RoundCap.of_content(area, wall.radius, angle, wall.inside)
     start = np.arccos(np.clip((wall - drop["center"][2]) / drop["radius"], -1.0, 1.0))
     content = Cap(drop["radius"], float(start), case["dimensions"]).content
     return Cap.of_content(content, angle, case["dimensions"])

@@ -26,6 +26,7 @@ from scipy.ndimage import convolve1d
 from scipy.sparse import csc_matrix
 
 from .elements import Elements
+from .round_walls import mirrored_in_round_walls
 
 BINOMIAL = np.array([1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0]) / 64.0
 REACH = 2.0             # of the kernel, in spacings
@@ -47,6 +48,7 @@ def mirrored(elements: Elements, case: dict) -> Elements:
     Without them the density would fall to one half at a wall that the material touches.
     """
     reach = (REACH + 0.5) * case["spacing"]
+    elements = mirrored_in_round_walls(elements, case, reach)
     names = ("x", "y", "z")
     for axis in active_axes(case["dimensions"]):
         for side, corner in (("min", "lower"), ("max", "upper")):

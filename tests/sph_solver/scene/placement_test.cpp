@@ -197,6 +197,104 @@ TEST(Placement, BallOnShellsKeepsVolumes)
         }
 }
 
+/// A drop of R = 1 on a cylinder of radius 2 and, with a vessel of radius 4 around, in another liquid.
+Case drop_on_a_cylinder(bool two_phase)
+{
+    Case definition = drop(2, 20, {});
+    definition.bodies.front().center = {0, 0, 2};
+    definition.domain.lower = {-5, 0, -5};
+    definition.domain.upper = {5, 0, 5};
+    definition.domain.round_walls = RoundWalls{{}, 2.0, {}};
+    if (!two_phase) return definition;
+    definition.domain.round_walls->outer_radius = 4.0;
+    definition.materials["outside"] = definition.materials.at("liquid");
+    definition.surrounding.emplace();
+    definition.surrounding->material = "outside";
+    definition.surrounding->resolved = true;
+    return definition;
+}
+
+TEST(Placement, RoundWallsHaveLayersBehindTheirSurface)
+{
+    const Scene scene = place_particles(drop_on_a_cylinder(true));
+    const Particles& particles = *scene.particles;
+    int of_cylinder = 0, of_vessel = 0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const double r = norm(particles.position[i]);
+        if (particles.kind[static_cast<std::size_t>(i)] != Kind::wall) {
+            EXPECT_GT(r, 2.0);
+            EXPECT_LT(r, 4.0);
+            continue;
+        }
+        const bool inner = r < 3.0;
+        ++(inner ? of_cylinder : of_vessel);
+        const double depth = particles.scalar("wall_depth")[i], radius = inner ? 2.0 : 4.0, side = inner ? 1.0 : -1.0;
+        EXPECT_NEAR(r, radius - side * depth, 1e-12);
+        EXPECT_NEAR(norm(particles.vector("wall_normal")[i] - (side / r) * particles.position[i]), 0.0, 1e-12);
+        EXPECT_DOUBLE_EQ(particles.scalar("wall_curvature")[i], side / radius);
+        // Its parent is the particle of the outermost layer that is nearest, and its own parent.
+        const Index parent = particles.surface_parent[static_cast<std::size_t>(i)];
+        EXPECT_EQ(particles.surface_parent[static_cast<std::size_t>(parent)], parent);
+        EXPECT_NEAR(particles.scalar("wall_depth")[parent], 0.05, 1e-12);
+        const Vector a = (1.0 / r) * particles.position[i];
+        const Vector b = (1.0 / norm(particles.position[parent])) * particles.position[parent];
+        EXPECT_LT(norm(a - b) * norm(particles.position[parent]), 0.051);
+    }
+    EXPECT_NEAR(of_cylinder, 2.0 * std::numbers::pi * (1.95 + 1.85 + 1.75) / 0.1, 2.0);
+    EXPECT_NEAR(of_vessel, 2.0 * std::numbers::pi * (4.05 + 4.15 + 4.25) / 0.1, 2.0);
+}
+
+TEST(Placement, DropOnARoundWallHoldsItsArea)
+{
+    // Both circles meet where cos β = 1 − R²/(2 R_w²): the drop is its disc less the lens that they share.
+    const double wall = 2.0, radius = 1.0, at_wall = std::acos(1.0 - 0.5 * radius * radius / (wall * wall));
+    const double at_drop = std::acos(0.5 * radius / wall);
+    const double lens = wall * wall * (at_wall - std::sin(at_wall) * std::cos(at_wall)) +
+                        radius * radius * (at_drop - std::sin(at_drop) * std::cos(at_drop));
+    for (const bool two_phase : {false, true}) {
+        const Scene scene = place_particles(drop_on_a_cylinder(two_phase));
+        const Particles& particles = *scene.particles;
+        double area = 0.0;
+        for (Index i = 0; i < particles.count(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (particles.kind[k] == Kind::fluid && particles.material[k] == 0) area += particles.volume[i];
+        }
+        EXPECT_NEAR(area, std::numbers::pi * radius * radius - lens, two_phase ? 6e-3 : 1e-12);
+    }
+}
+
+TEST(Placement, VolumesBetweenRoundWallsAreEqual)
+{
+    // What differs would be set free as elastic energy: as they stand on their rings volumes differ by 2 %.
+    const Scene scene = place_particles(drop_on_a_cylinder(true));
+    const Particles& particles = *scene.particles;
+    const RootFree kernel(0.1, 2);
+    double mean = 0.0, square = 0.0;
+    int count = 0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        if (particles.kind[static_cast<std::size_t>(i)] != Kind::fluid) continue;
+        double sum = 0.0;
+        for (Index j = 0; j < particles.count(); ++j) {
+            const double r = norm(particles.position[i] - particles.position[j]);
+            if (r < kernel.support()) sum += kernel(std::max(r, 1e-9)).value;
+        }
+        const double volume = 1.0 / sum / scene.particle_volume;
+        mean += volume;
+        square += volume * volume;
+        ++count;
+    }
+    mean /= count;
+    EXPECT_NEAR(mean, 1.0, 1e-3);
+    EXPECT_LT(std::sqrt(square / count - mean * mean), 3e-3);
+}
+
+TEST(Placement, CylinderTooThinForItsLayersIsRefused)
+{
+    Case definition = drop_on_a_cylinder(false);
+    definition.domain.round_walls->inner_radius = 0.35;
+    EXPECT_THROW(place_particles(definition), CaseError);
+}
+
 TEST(Placement, WaveHasItsAmplitudeAtTheSurfaceAndNoneAtTheBottom)
 {
     Case definition = small_scenes::pool(2, 0.05);
