@@ -58,7 +58,7 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
         contact_angle_ = scene.definition.requires_physics("wetting") ? scene.materials.front().contact_angle.value()
                                                                       : 0.5 * std::numbers::pi;
         wall_interface_.emplace(WallInterface{
-            mobility_, two_phase_ ? 0.0 : h_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
+            mobility_, 2.0 * spacing_, (two_phase_ ? 0.11 : 0.22) / h_, 0.05 / h_, particles_,
             particles_.vector("wall_normal"), fields_, two_phase_ ? *smoothed_curvature_ : fields_.curvature,
             scalar("wall_weight_sum"), vector("wall_normal_sum"), vector("wall_place_sum"),
             scalar("wall_curvature_sum"), vector("wall_foot_sum"), vector("wall_lateral_sum"),

@@ -20,8 +20,7 @@ namespace cupel::inline CUPEL_ENGINE
 ///   n̂_Y = sin θ_Y t̂ + cos θ_Y N,      t̂ the lateral direction of −∇c in the liquid's surface band, N the wall's
 ///   normal.
 ///
-/// Means ⟨ ⟩ are over the band near the wall, of weight W_wj δ_j (under a free surface times share_of_surface: normals
-/// below its first layer are noise); f = ⟨x_j + s_j n̂_j⟩ is a place of the interface, and
+/// Means ⟨ ⟩ are over the band near the wall, of weight W_wj δ_j; f = ⟨x_j + s_j n̂_j⟩ is a place of the interface, and
 /// m̂ the mean of n̂_Y and the liquid's mean normal: on a circle the plane through f across m̂ meets the wall's where the
 /// circle does.
 ///
@@ -50,9 +49,8 @@ namespace cupel::inline CUPEL_ENGINE
 struct WallInterface
 {
     Mobility mobility;
-    double layer;          ///< h where the surface's first layer alone is asked (a free surface), m; 0: all of its band
-    double reach;          ///< liquid further than this from the wall is not asked, m
-    double smallest_delta; ///< 1/m
+    double reach;            ///< liquid further than this from the wall is not asked, m
+    double smallest_delta;   ///< 1/m
     double smallest_lateral; ///< of −∇c, 1/m
     const Particles& particles;
     const VectorField& wall_normal;
@@ -87,10 +85,6 @@ struct WallInterface
         const auto k = static_cast<std::size_t>(i);
         return particles.surface_parent[k] == particles.identity[k];
     }
-    double weight(Index j) const
-    {
-        return surface.delta[j] * (layer > 0.0 ? share_of_surface(surface, j, layer) : 1.0);
-    }
     bool idle(const Cluster& cluster) const
     {
         return none_in(cluster, [&](Index i) { return stands_for_surface(i); });
@@ -99,7 +93,7 @@ struct WallInterface
     Far far(Index j) const
     {
         return {real(mobility.weight[j]), particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-                real(weight(j)),          real(surface.depth[j]),
+                real(surface.delta[j]),   real(surface.depth[j]),
                 real(curvature[j]),       real(surface.colour_gradient[j]),
                 real(surface.normal[j])};
     }
