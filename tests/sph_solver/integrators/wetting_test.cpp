@@ -80,11 +80,11 @@ TEST_P(Wetting, WallsContinueAnOverhangAsItsCircle)
 TEST(Wetting, BooksCloseWhereWallsHoldTheEdgeOfADrop)
 {
     // What pressure does to a particle that a wall holds is no compression's work.
-    Case definition = drop_on_a_wall(std::numbers::pi * 25.0 / 180.0);
+    Case definition = drop_on_a_wall(std::numbers::pi / 9.0);
     definition.domain.lower = {-0.5, 0, 0};
     definition.domain.upper = {2.5, 0, 1};
     definition.numerics.reference_speed = 12.0; // no density is cut off
-    definition.materials.at("liquid").viscosity = 0.025;
+    definition.materials.at("liquid").viscosity = 0.03;
     Simulation simulation(place_particles(definition));
     simulation.start();
     while (simulation.time() < 0.5)
