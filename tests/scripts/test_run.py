@@ -180,3 +180,12 @@ def test_a_second_run_of_the_same_result_is_refused(run_case):
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
     assert process.returncode == 130
+
+
+def test_a_solver_that_cannot_run_a_case_is_left_out_of_it(cupel, tmp_path):
+    name, place = "sessile_drop_round_wall_free_cylinder_90deg", ("--results", str(tmp_path))
+    done = cupel("run", name, "--solver", "openfoam", *place)
+    assert done.returncode == 2 and f"{name}: left out of openfoam: its walls are flat" in done.stderr
+    assert "nothing is left to run" in done.stderr and not list(tmp_path.glob("*/openfoam"))
+    rows = cupel("check", name, "--level", "fine", *place).stdout
+    assert f"{name} sph" in rows and f"{name} openfoam" not in rows
