@@ -82,8 +82,7 @@ void add_wall(const Rings& rings, double radius, double spacing, int side, long 
     }
 }
 
-} // namespace
-
+/// Area of a disc that lies between the walls, m².
 double area_between(const Body& disc, const RoundWalls& walls)
 {
     const double between = distance(disc.center, walls.center);
@@ -92,6 +91,8 @@ double area_between(const Body& disc, const RoundWalls& walls)
         walls.outer_radius ? common_with(*walls.outer_radius) : std::numbers::pi * disc.radius * disc.radius;
     return within - (walls.inner_radius ? common_with(*walls.inner_radius) : 0.0);
 }
+
+} // namespace
 
 RoundPlaces place_between_round_walls(const Case& definition, int layers)
 {

@@ -31,12 +31,8 @@ struct RoundPlaces
 /// wall: no step lies between wall and liquid. Each ring has the number of particles that leaves a spacing between them
 /// and begins the golden angle further than the last one (as in disc_on_rings), and then all are moved as shifting
 /// would (even_out.hpp), walls aside. Of them those nearest to the body's centre are the drop, as many as its area
-/// holds; a particle's volume is what makes that area exact, or
-/// with a resolved surrounding the mean of what volumes are summed to. `layers`: of each wall. Errors: CaseError where
-/// the cylinder is too thin for them.
+/// holds; a particle's volume is what makes that area exact, or with a resolved surrounding the mean of what volumes
+/// are summed to. `layers`: of each wall. Errors: CaseError where the cylinder is too thin for them.
 RoundPlaces place_between_round_walls(const Case& definition, int layers);
-
-/// Area of a disc that lies between the walls [m²].
-double area_between(const Body& disc, const RoundWalls& walls);
 
 } // namespace cupel
