@@ -182,10 +182,17 @@ double place_round(const Case& definition, std::vector<Placement>& placements)
     return places.volume;
 }
 
-/// Liquid and solids on a lattice, and the walls around them; returns the volume of a particle of what is no wall.
-double place_on_lattice(const Case& definition, const Lattice& lattice, FillingGrid& grid, bool two_phase,
+/// Liquid and solids on a lattice, `background` where no body is, and the walls around them; returns the volume of a
+/// particle of what is no wall.
+template <class MaterialIndex>
+double place_on_lattice(const Case& definition, std::optional<Filling> background, const MaterialIndex& material_index,
                         bool any_fluid, std::vector<Placement>& placements)
 {
+    const Lattice lattice = make_lattice(definition);
+    FillingGrid grid(lattice, background);
+    for (const Body& body : definition.bodies)
+        fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)},
+                  definition.dimensions);
     std::array<int, 3> cell{};
     for (cell[2] = 0; cell[2] < lattice.cells[2]; ++cell[2])
         for (cell[1] = 0; cell[1] < lattice.cells[1]; ++cell[1])
@@ -196,7 +203,7 @@ double place_on_lattice(const Case& definition, const Lattice& lattice, FillingG
         throw CaseError("resolution: no particle fits into any body at a spacing of " +
                         std::to_string(definition.spacing) + " m; choose a finer one");
     const double lattice_volume = std::pow(definition.spacing, definition.dimensions);
-    const double volume = place_free_drop(definition, two_phase, lattice_volume, placements);
+    const double volume = place_free_drop(definition, background.has_value(), lattice_volume, placements);
     disturb(definition, placements);
     // A scene that is solid to its borders needs no walls: nothing molten reaches them.
     if (any_fluid) place_walls(definition, lattice, placements);
@@ -248,21 +255,14 @@ Scene place_particles(const Case& definition)
         throw CaseError("body: the SPH solver models one liquid in vacuum or one in a resolved surrounding, but the "
                         "bodies are made of more; use one material");
 
-    const Lattice lattice = make_lattice(definition);
     const bool flat = definition.dimensions == 2;
-    FillingGrid grid(lattice, background);
-    bool any_fluid = scene.two_phase;
-    for (const Body& body : definition.bodies) {
-        any_fluid = any_fluid || !body.solid;
-        fill_body(grid, body, {body.solid ? Kind::solid : Kind::fluid, material_index(body.material)},
-                  definition.dimensions);
-    }
-
+    const bool any_fluid =
+        scene.two_phase || std::ranges::any_of(definition.bodies, [](const Body& body) { return !body.solid; });
     std::vector<Placement> placements;
     const double lattice_volume = std::pow(scene.spacing, scene.dimensions);
     scene.particle_volume = definition.domain.round_walls
                                 ? place_round(definition, placements)
-                                : place_on_lattice(definition, lattice, grid, scene.two_phase, any_fluid, placements);
+                                : place_on_lattice(definition, background, material_index, any_fluid, placements);
 
     scene.particles = std::make_unique<Particles>(static_cast<Index>(placements.size()));
     Particles& particles = *scene.particles;
