@@ -6,7 +6,6 @@
 #include "integrators/two_phase_flow.hpp"
 #include "models/cohesion.hpp"
 #include "models/recoil_pressure.hpp"
-#include "models/surface_load.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
 {
@@ -41,12 +40,11 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     }
     const bool shifts = !scene.two_phase && scene.definition.numerics.shifting > 0.0;
     const bool loads = with_tension_ || with_recoil_;
-    // Films of melt among its solid are a few particles: too little for a field to be carried in.
-    const bool continuum_force = scene.definition.numerics.surface_load == "continuum_force";
-    band_bears_load_ = loads && (continuum_force || (!scene.two_phase && scene.definition.requires_physics("wetting") &&
-                                                     scene.definition.requires_physics("melting")));
+    band_bears_load_ = loads && scene.definition.numerics.surface_load == "continuum_force";
     if (loads || with_marangoni_ || shifts)
-        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility, loads && !band_bears_load_);
+        surface_ = std::make_unique<SurfaceTracker>(scene, parameters, kernel_, mobility,
+                                                    loads && !band_bears_load_ &&
+                                                        !scene.definition.requires_physics("melting"));
     if (with_recoil_) {
         const Material& metal = scene.materials.front();
         vapour_pressure_ = {scene.definition.surrounding->pressure, metal.boiling_temperature.value(),
@@ -60,10 +58,6 @@ Flow::Flow(Scene& scene, const FlowParameters& parameters, const ScalarField& mo
     if (temperature_ && (with_tension_ || with_recoil_ || with_marangoni_))
         mean_temperature_ = &particles_.add_scalar({"surface_temperature", "K"});
     if (loads) load_ = &particles_.add_scalar({"surface_load", "Pa"});
-    if (band_bears_load_ && !continuum_force) {
-        mean_load_ = &particles_.add_scalar({"mean_surface_load", "Pa"});
-        load_gradient_ = &particles_.add_vector({"surface_load_gradient", "Pa/m"});
-    }
     if (with_tension_ && !scene.two_phase) {
         unresolved_ = &particles_.add_scalar({"unresolved", "1"});
         bonds_ = Cohesion::bonds_across_a_plane(scene.dimensions);
@@ -196,6 +190,11 @@ double Flow::tension(Index i) const
     return mean_temperature_ ? tension_((*mean_temperature_)[i]) : tension_.at_reference;
 }
 
+double Flow::tension_of_solid(Index i) const
+{
+    return temperature_ ? tension_((*temperature_)[i]) : tension_.at_reference;
+}
+
 void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_known)
 {
     if (!load_) return;
@@ -210,9 +209,9 @@ void Flow::find_load(const Neighbourhood& neighbourhood, bool temperature_is_kno
         }
         (*load_)[i] = load;
     });
-    if (!mean_load_) return;
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  SurfaceLoad{mobility_, surface.delta, surface.normal, *load_, *mean_load_, *load_gradient_});
+    // A solid beside its melt has the tension of its own temperature, and does not evaporate.
+    for (const Index i : surface_->solids())
+        (*load_)[i] = with_tension_ && surface.delta[i] > 0.0 ? surface.curvature[i] * tension_of_solid(i) : 0.0;
 }
 
 void Flow::accelerate(const Neighbourhood& neighbourhood)
@@ -226,10 +225,7 @@ void Flow::accelerate(const Neighbourhood& neighbourhood)
             const Vector normal = surface.normal[i];
             const double delta = surface.delta[i];
             Vector force_density{};
-            if (band_bears_load_)
-                force_density += mean_load_ ? surface_load_force((*mean_load_)[i], (*load_gradient_)[i],
-                                                                 surface.depth[i], normal, delta)
-                                            : surface_load_force((*load_)[i], {}, 0.0, normal, delta);
+            if (band_bears_load_) force_density += surface_load_force((*load_)[i], normal, delta);
             if (const VectorField* pull = surface_->contact_pull()) force_density += (delta * tension(i)) * (*pull)[i];
             const double lightness = 1.0 / (mean_density_ > 0.0 ? mean_density_ : particles_.density[i]);
             by_surface += (particles_.mass[i] * lightness) * force_density;

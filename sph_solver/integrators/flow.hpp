@@ -183,13 +183,12 @@ protected:
     bool band_bears_load_ = false;
 
 private:
-    double tension(Index i) const; ///< σ at a particle of the surface, N/m
+    double tension(Index i) const;          ///< σ at a particle of the liquid's surface, N/m
+    double tension_of_solid(Index i) const; ///< the same for one of its solid
 
     SurfaceTensionLaw tension_;
     VapourPressure vapour_pressure_;
     bool with_tension_, with_marangoni_, with_recoil_;
-    ScalarField* mean_load_ = nullptr; ///< only where the band bears the load at its place
-    VectorField* load_gradient_ = nullptr;
     ScalarField* unresolved_ = nullptr; ///< only where a free surface has tension
     double bonds_ = 0.0;
     ScalarField* mean_temperature_ = nullptr; ///< only where a surface force depends on it

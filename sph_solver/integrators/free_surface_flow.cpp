@@ -52,6 +52,8 @@ FreeSurfaceFlow::FreeSurfaceFlow(Scene& scene, const FlowParameters& parameters,
         mass_rate_ = &particles_.add_scalar({"mass_rate", "kg/s"});
         momentum_rate_ = &particles_.add_vector({"shifting_momentum_rate", "N"});
         shifting_speed_ = &particles_.add_scalar({"shifting_speed", "m/s"});
+        if (scene.definition.requires_physics("melting"))
+            shifting_speed_of_band_ = &particles_.add_scalar({"shifting_speed_of_band", "m/s"});
         packing_rate_ = &particles_.add_scalar({"packing_rate", "kg/(m3 s)"});
         balance_ = &particles_.add_scalar({"shifting_balance", "1"}, 1.0);
         if (particles_.has("enthalpy")) {
@@ -96,10 +98,12 @@ void FreeSurfaceFlow::reset(Index place)
     (*excess_pressure_)[place] = 0.0;
     wall_force_->set(place, {});
     density_rate_by_walls_[place] = 0.0;
+    if (carried_mean_) (*carried_mean_)[place] = (*carried_load_)[place]; // what the liquid beside it bears
     if (density_gradient_) density_gradient_->set(place, {});
     if (!shift_) return;
     shift_->set(place, {});
     (*shifting_speed_)[place] = 0.0;
+    if (shifting_speed_of_band_) (*shifting_speed_of_band_)[place] = 0.0;
     (*packing_rate_)[place] = 0.0;
     // Walls and solids have the mass that they started with or froze with, and no say in it.
     (*balance_)[place] = 1.0;
@@ -201,10 +205,11 @@ void FreeSurfaceFlow::find_forces(const Neighbourhood& neighbourhood, bool with_
                                         &surface_->fields().colour_gradient,
                                         surface_->fields().delta,
                                         *shift_,
-                                        *shifting_speed_};
+                                        *shifting_speed_,
+                                        shifting_speed_of_band_};
         // Packing reads the speed that shifting has just stored for the same cluster.
-        sum_with_gradient(
-            shifting, Packing{mobility_, h, lattice_packing_, *shifting_speed_, particles_.density, *packing_rate_});
+        sum_with_gradient(shifting, Packing{mobility_, h, lattice_packing_, *shifting_speed_, shifting_speed_of_band_,
+                                            particles_.density, *packing_rate_});
     }
     if (temperature_gradient_) correct_temperature_gradient(neighbourhood, correction_);
     if (density_gradient_ && with_density_gradient) correct_density_gradient(neighbourhood);
@@ -243,7 +248,8 @@ SurfaceStressShare FreeSurfaceFlow::surface_stress_share()
 }
 
 /// The load on the surface carried into the liquid, one step further than the last, and its force. A run starts with
-/// the load's mean over the surface everywhere.
+/// the load's mean over the surface everywhere. A solid has the mean of the liquid that it sees, and where it is the
+/// metal's surface its own load.
 void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_start)
 {
     const SurfaceFields& surface = surface_->fields();
@@ -257,6 +263,10 @@ void FreeSurfaceFlow::carry_load(const Neighbourhood& neighbourhood, bool at_sta
         }
         for (const Index i : neighbourhood.moving_particles())
             (*carried_mean_)[i] = weight > 0.0 ? sum / weight : 0.0;
+    }
+    for (const Index i : surface_->solids()) {
+        const double share = share_of_surface(surface, i, h);
+        (*carried_load_)[i] = (1.0 - share) * (*carried_load_)[i] + share * (*load_)[i];
     }
     neighbourhood.for_each_moving([&](Index i) {
         const double share = share_of_surface(surface, i, h);

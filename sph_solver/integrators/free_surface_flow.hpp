@@ -78,7 +78,8 @@ private:
     ScalarField* mass_rate_ = nullptr;
     VectorField* momentum_rate_ = nullptr;
     ScalarField* shifting_speed_ = nullptr;
-    ScalarField* packing_rate_ = nullptr; ///< of density, kg/(m³ s)
+    ScalarField* shifting_speed_of_band_ = nullptr; ///< only where metal melts
+    ScalarField* packing_rate_ = nullptr;           ///< of density, kg/(m³ s)
     ScalarField* balance_ = nullptr;
     ScalarField* enthalpy_ = nullptr;
     ScalarField* energy_rate_ = nullptr;

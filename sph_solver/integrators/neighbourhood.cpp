@@ -1,5 +1,7 @@
 #include "integrators/neighbourhood.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace cupel::inline CUPEL_ENGINE
@@ -99,6 +101,8 @@ void Neighbourhood::classify(const Particles& particles, const ScalarField& mobi
     for (const Index c : all_)
         if (touched[static_cast<std::size_t>(c)]) standing_.push_back(c);
     if (computes_everywhere_) moving_ = standing_ = all_;
+    working_.clear();
+    std::set_union(moving_.begin(), moving_.end(), standing_.begin(), standing_.end(), std::back_inserter(working_));
 }
 
 } // namespace cupel::inline CUPEL_ENGINE

@@ -33,6 +33,8 @@ public:
     const std::vector<Index>& all() const { return all_; }
     const std::vector<Index>& moving() const { return moving_; }
     const std::vector<Index>& standing() const { return standing_; }
+    /// Both, in order.
+    const std::vector<Index>& working() const { return working_; }
     /// Whether something that stands is within the kernel's support of a particle that moves. Clusters may hold both,
     /// so that standing() need not be empty where nothing is met.
     bool meets_what_stands(const Particles& particles, const ScalarField& mobility) const;
@@ -55,7 +57,7 @@ private:
     void forget_wanderers();
 
     NeighbourList list_;
-    std::vector<Index> all_, moving_, standing_, moving_particles_;
+    std::vector<Index> all_, moving_, standing_, working_, moving_particles_;
     std::vector<Index> wandered_; ///< clusters in which something has moved since it was listed
     std::vector<unsigned char> has_wandered_;
     std::uint64_t version_ = 0;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "models/metal_surface.hpp"
 #include "models/normal_of_depth.hpp"
 
 namespace cupel::inline CUPEL_ENGINE
@@ -41,6 +42,10 @@ bool overhangs(bool two_phase, double contact_angle)
 SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, const SmoothingKernel& kernel,
                                const ScalarField& mobility, bool sharpens)
     : particles_(*scene.particles), kernel_(kernel), mobility_{mobility},
+      solid_share_(!scene.two_phase && scene.definition.requires_physics("melting")
+                       ? &particles_.add_scalar({"metal_share", "1"})
+                       : nullptr),
+      bounded_{solid_share_ ? *solid_share_ : mobility},
       profile_(kernel, scene.dimensions, scene.two_phase ? 0.0 : scene.spacing),
       fields_(SurfaceFields::register_in(particles_)), dimensions_(scene.dimensions), two_phase_(scene.two_phase),
       needs_curvature_(scene.definition.requires_physics("surface_tension")), sharpens_(sharpens),
@@ -48,6 +53,7 @@ SurfaceTracker::SurfaceTracker(Scene& scene, const FlowParameters& parameters, c
 {
     for (Index i = 0; i < particles_.count(); ++i)
         fields_.colour[i] = particles_.material[static_cast<std::size_t>(i)] == 0 ? 1.0 : 0.0;
+    if (solid_share_) fields_.exposure = &particles_.add_scalar({"surface_exposure", "1"});
     if (two_phase_) smoothed_curvature_ = &particles_.add_scalar({"smoothed_curvature", "1/m"});
     if (has_kind(particles_, Kind::wall)) {
         const auto scalar = [&](const char* name) -> ScalarField& { return particles_.add_scalar({name, "1"}); };
@@ -78,20 +84,43 @@ void SurfaceTracker::start(const Neighbourhood& neighbourhood)
 
 void SurfaceTracker::find(const Neighbourhood& neighbourhood)
 {
-    neighbourhood.for_each_moving([&](Index i) { finish_gradient(i); });
+    if (solid_share_) find_solids(neighbourhood);
+    for_each_bounded(neighbourhood, [&](Index i) { finish_gradient(i); });
     find_band(neighbourhood);
     if (wall_interface_) wet_walls(neighbourhood);
     find_normals(neighbourhood);
     if (needs_curvature_) fit_curvature(neighbourhood);
 }
 
+/// Solids beside liquid and their colour gradient. Those that were beside it have no surface any more.
+void SurfaceTracker::find_solids(const Neighbourhood& neighbourhood)
+{
+    if (known_version_ != neighbourhood.version()) {
+        known_version_ = neighbourhood.version();
+        for (Index i = 0; i < particles_.count(); ++i) {
+            (*solid_share_)[i] = mobility_.weight[i];
+            if (particles_.kind[static_cast<std::size_t>(i)] != Kind::wall && mobility_.weight[i] == 0.0) reset(i);
+        }
+    }
+    const NeighbourList& list = neighbourhood.list();
+    const SolidBesideLiquid beside{mobility_, particles_.kind, *solid_share_};
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), beside);
+    solids_.clear();
+    for (const Index c : neighbourhood.standing()) {
+        const Cluster& cluster = list.cluster(c);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
+            if (beside.is_solid(i)) (*solid_share_)[i] > 0.0 ? solids_.push_back(i) : reset(i);
+    }
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), ColourGradient<false>{bounded_, h_, fields_});
+}
+
 /// Near a free surface only what has a neighbour at the surface itself belongs to it.
 void SurfaceTracker::find_band(const Neighbourhood& neighbourhood)
 {
     if (two_phase_) return;
-    for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                  SurfaceNeighbourhood{mobility_, fields_});
-    neighbourhood.for_each_moving([&](Index i) {
+    for_each_pair(neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
+                  SurfaceNeighbourhood{bounded_, fields_});
+    for_each_bounded(neighbourhood, [&](Index i) {
         const bool near_surface = fields_.in_band[i] != 0.0 || fields_.raw_curvature[i] > 0.0;
         if (!near_surface || is_spray(i)) fields_.delta[i] = 0.0;
     });
@@ -262,10 +291,10 @@ void SurfaceTracker::prescribe_wall_normals(const Neighbourhood& neighbourhood, 
 void SurfaceTracker::find_normals(const Neighbourhood& neighbourhood)
 {
     const auto sum = [&](const auto& term) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(), term);
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters(neighbourhood), term);
     };
-    two_phase_ ? sum(NormalOfDepth{mobility_, dimensions_, fields_}) : sum(NormalSmoothing{mobility_, fields_});
-    neighbourhood.for_each_moving([&](Index i) {
+    two_phase_ ? sum(NormalOfDepth{bounded_, dimensions_, fields_}) : sum(NormalSmoothing{bounded_, fields_});
+    for_each_bounded(neighbourhood, [&](Index i) {
         if (!(fields_.delta[i] > 0.0)) return;
         const Vector normal = fields_.smoothed_normal[i];
         fields_.normal.set(i, normal);
@@ -280,14 +309,19 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
     const double greatest = (two_phase_ ? 1.0 : 0.4) / spacing_;
     const double flatness = two_phase_ ? 0.0 : 0.5 * profile_.tangential_variance();
     for_each_pair(
-        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-        TangentPlaneCurvature{mobility_, dimensions_, smallest, greatest, flatness, particles_.volume, fields_});
+        neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
+        TangentPlaneCurvature{bounded_, dimensions_, smallest, greatest, flatness, particles_.volume, fields_});
+    if (fields_.exposure)
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
+                      Exposure{bounded_, smallest, kernel_(spacing_).value * std::pow(spacing_, dimensions_), fields_,
+                               *fields_.exposure});
     if (!two_phase_)
-        neighbourhood.for_each_moving([&](Index i) { fields_.curvature_share[i] *= share_of_surface(fields_, i, h_); });
+        for_each_bounded(neighbourhood,
+                         [&](Index i) { fields_.curvature_share[i] *= share_of_surface(fields_, i, h_); });
     for_each_pair(
-        neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-        CurvatureSmoothing{mobility_, fields_, fields_.curvature_share, fields_.raw_curvature, fields_.curvature});
-    if (two_phase_) neighbourhood.for_each_moving([&](Index i) { (*smoothed_curvature_)[i] = fields_.curvature[i]; });
+        neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
+        CurvatureSmoothing{bounded_, fields_, fields_.curvature_share, fields_.raw_curvature, fields_.curvature});
+    if (two_phase_) for_each_bounded(neighbourhood, [&](Index i) { (*smoothed_curvature_)[i] = fields_.curvature[i]; });
     if (sharpens_) sharpen_curvature(neighbourhood, greatest);
 }
 
@@ -303,8 +337,8 @@ void SurfaceTracker::fit_curvature(const Neighbourhood& neighbourhood)
 void SurfaceTracker::sharpen_curvature(const Neighbourhood& neighbourhood, double greatest)
 {
     const auto smooth = [&](const ScalarField& value, ScalarField& smoothed) {
-        for_each_pair(neighbourhood.list(), particles_, kernel_, neighbourhood.moving(),
-                      CurvatureSmoothing{mobility_, fields_, fields_.curvature_share, value, smoothed});
+        for_each_pair(neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
+                      CurvatureSmoothing{bounded_, fields_, fields_.curvature_share, value, smoothed});
     };
     double kernels_passed = 4.0;
     if (two_phase_) {
@@ -313,7 +347,7 @@ void SurfaceTracker::sharpen_curvature(const Neighbourhood& neighbourhood, doubl
         ++kernels_passed;
     }
     smooth(fields_.curvature, fields_.raw_curvature);
-    neighbourhood.for_each_moving([&](Index i) {
+    for_each_bounded(neighbourhood, [&](Index i) {
         const double once = fields_.curvature[i], twice = fields_.raw_curvature[i];
         if (once != 0.0) fields_.curvature[i] = std::clamp(once + kernels_passed * (once - twice), -greatest, greatest);
     });

@@ -18,12 +18,17 @@ namespace cupel::inline CUPEL_ENGINE
 /// |C − C₀| counts up to 0.1. C₀ is that of a lattice: one but for what the kernel's sum misses (−6·10⁻⁵ in two
 /// dimensions), by which liquid in perfect order would lose density as it moves. Own derivation; compare the
 /// volume-conserving shifting of Lyu and others 2022, which moves particles to the same end.
+///
+/// At a surface kernels are not full, and C < C₀ says nothing. But C > C₀ does: where metal melts it counts in the
+/// surface's band as well. The front of melt that spreads on its solid would thin as a film does that has no particles,
+/// by continuity alone, and its last particles sink into the solid's rows.
 struct Packing
 {
     Mobility mobility;
-    double smoothing_length;  ///< h, m
-    double lattice_packing;   ///< C₀
-    const ScalarField& speed; ///< U of shifting; zero outside, m/s
+    double smoothing_length;       ///< h, m
+    double lattice_packing;        ///< C₀
+    const ScalarField& speed;      ///< U of shifting; zero outside, m/s
+    const ScalarField* band_speed; ///< U in the surface's band; null where nothing melts
     const ScalarField& density;
     ScalarField& density_rate; ///< kg/(m³ s)
 
@@ -42,8 +47,12 @@ struct Packing
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         const Lanes rate = Lanes(1.0 / smoothing_length) * lanes(speed, cluster.first) * lanes(density, cluster.first);
-        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster),
-                    rate * clamp(sum.packing - lattice_packing, -0.1, 0.1));
+        const Lanes excess = clamp(sum.packing - lattice_packing, -0.1, 0.1);
+        Lanes sum_of_rates = rate * excess;
+        if (band_speed)
+            sum_of_rates += Lanes(1.0 / smoothing_length) * lanes(*band_speed, cluster.first) *
+                            lanes(density, cluster.first) * maximum(excess, 0.0);
+        store_lanes(density_rate, cluster.first, mobility.moving_in(cluster), sum_of_rates);
     }
 };
 

@@ -44,6 +44,7 @@ struct ShiftingVelocity
     const ScalarField& surface_delta;   ///< above zero in the surface's band
     VectorField& shift;
     ScalarField& inner_speed; ///< U where liquid is neither spray nor in the surface's band, elsewhere zero, m/s
+    ScalarField* band_speed;  ///< U in that band; null where nothing melts
 
     struct Near
     {
@@ -78,6 +79,7 @@ struct ShiftingVelocity
         const Lanes speed = select(spray, zero, exchange_balance(lanes(mass, first), lattice_mass) * greatest);
         const LaneMask in_band = lanes(surface_delta, first) > zero;
         store_lanes(inner_speed, first, liquid, select(spray | in_band, zero, greatest));
+        if (band_speed) store_lanes(*band_speed, first, liquid, select(in_band, select(spray, zero, greatest), zero));
         VectorLanes u = (Lanes(-2.0 * smoothing_length) * speed) * sum.concentration;
         const Lanes limit = 0.5 * speed, magnitude = square_root(dot(u, u));
         u = select(magnitude > limit, limit / magnitude, one) * u;

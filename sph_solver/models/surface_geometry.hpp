@@ -20,12 +20,13 @@ struct SurfaceFields
     ScalarField& companions;      ///< neighbours of any kind within counting_reach, itself included
     VectorField& normal;          ///< n̂, out of the liquid
     VectorField& smoothed_normal;
-    ScalarField& delta;           ///< δ, 1/m: its integral across the surface is one
-    ScalarField& in_band;         ///< 1 where |∇c| h marks the surface itself
-    ScalarField& depth;           ///< distance below the surface, positive in the liquid, m
-    ScalarField& raw_curvature;   ///< ∇·n̂, 1/m
-    ScalarField& curvature_share; ///< how much raw_curvature counts where it is smoothed; 0 where there is none
-    ScalarField& curvature;       ///< raw_curvature smoothed over the band
+    ScalarField& delta;              ///< δ, 1/m: its integral across the surface is one
+    ScalarField& in_band;            ///< 1 where |∇c| h marks the surface itself
+    ScalarField& depth;              ///< distance below the surface, positive in the liquid, m
+    ScalarField& raw_curvature;      ///< ∇·n̂, 1/m
+    ScalarField& curvature_share;    ///< how much raw_curvature counts where it is smoothed; 0 where there is none
+    ScalarField& curvature;          ///< raw_curvature smoothed over the band
+    ScalarField* exposure = nullptr; ///< e of metal_surface.hpp; null where nothing melts
 
     static SurfaceFields register_in(Particles& particles)
     {
@@ -45,13 +46,15 @@ struct SurfaceFields
 /// How far a particle belongs to the surface's first layer, by |∇c| h and by its depth: on a lattice they are 0.46 and
 /// 0.5 h there, 0.04 and 1.5 h in the second layer. Depth decides where the first layer is loose: what lies below it
 /// has a |∇c| h of up to 0.25 there, but normals of noise, and a curvature of the limit's size. As a load on the
-/// surface that drove what was loose apart (static_drop_free_la120_jitter).      [1]
+/// surface that drove what was loose apart (static_drop_free_la120_jitter). Where metal melts, whether anything lies
+/// above a particle decides instead: in a concave edge what is at the surface looks deep (metal_surface.hpp).      [1]
 inline double share_of_surface(const SurfaceFields& surface, Index i, double smoothing_length)
 {
     if (!(surface.delta[i] > 0.0)) return 0.0;
     const double slope = norm(surface.colour_gradient[i]) * smoothing_length;
-    return std::clamp((slope - 0.15) / 0.15, 0.0, 1.0) *
-           std::clamp((1.25 - surface.depth[i] / smoothing_length) / 0.5, 0.0, 1.0);
+    const double exposure = surface.exposure ? (*surface.exposure)[i]
+                                             : std::clamp((1.25 - surface.depth[i] / smoothing_length) / 0.5, 0.0, 1.0);
+    return std::clamp((slope - 0.15) / 0.15, 0.0, 1.0) * exposure;
 }
 
 /// Thresholds of the surface band, all relative to the smoothing length h.

@@ -27,7 +27,8 @@ namespace cupel::inline CUPEL_ENGINE
 /// Particles of the surface's first layer, at the depth s, take λ_i = L_i − s n̂·∇λ_i instead, the more the more of
 /// it is surface (share_of_surface), and no more than |L_i| away from L_i: a wave of number k falls off by k s L, less
 /// than itself where it is resolved, and in a thin edge, whose two sides see each other, λ would run away. Walls and
-/// solids have the mean of the liquid that they see (wall_extrapolation.hpp). Own derivation.
+/// solids have the mean of the liquid that they see (wall_extrapolation.hpp), a solid that is the surface of its metal
+/// (metal_surface.hpp) the load that it has there. Own derivation.
 struct SurfacePressure
 {
     Mobility mobility;

@@ -43,8 +43,7 @@ namespace cupel::inline CUPEL_ENGINE
 ///   cos θ = ⟨n̂_j·N⟩ − κ_m ⟨d_j⟩
 ///
 /// What it differs from θ_Y by pulls at the contact line (ContactPull). Sums are taken for the wall's surface layer.
-/// Melt on its own solid has no such line to correct: there the metal's surface is followed as one, melt and solid
-/// together, and the edge of a pool stands where the metal melts, as in a volume-of-fluid model.
+/// Melt on its own solid has no such line to correct: there the metal's surface is followed as one (metal_surface.hpp).
 /// Source: own derivation after the normal correction of Breinlinger et al. 2013, which the paper uses (section 2.5.2).
 struct WallInterface
 {
@@ -62,7 +61,7 @@ struct WallInterface
     ScalarField& curvature_sum;   ///< Σ W δ κ
     VectorField& foot_sum;        ///< Σ W δ (x + s n̂ − x_w)
     VectorField& lateral_sum;     ///< Σ W δ t̂
-    ScalarField& primary_sum;     ///< Σ W over the primary liquid
+    ScalarField& primary_sum;     ///< Σ W over the primary liquid and its solid
     ScalarField& other_sum;       ///< Σ W over the surrounding
 
     struct Near
@@ -71,7 +70,7 @@ struct WallInterface
     };
     struct Far
     {
-        Real liquid, primary, delta, depth, curvature; ///< liquid, primary: 1 or 0
+        Real metal, primary, delta, depth, curvature; ///< metal: not of a wall; primary: 1 or 0
         VectorOf<Real> colour_gradient, normal;
     };
     struct Sum
@@ -92,12 +91,16 @@ struct WallInterface
     Near near(Index first) const { return {lanes(wall_normal, first)}; }
     Far far(Index j) const
     {
-        return {real(mobility.weight[j]), particles.material[static_cast<std::size_t>(j)] == 0 ? Real(1) : Real(0),
-                real(surface.delta[j]),   real(surface.depth[j]),
-                real(curvature[j]),       real(surface.colour_gradient[j]),
+        const auto k = static_cast<std::size_t>(j);
+        return {particles.kind[k] == Kind::wall ? Real(0) : Real(1),
+                particles.material[k] == 0 ? Real(1) : Real(0),
+                mobility.weight[j] != 0.0 ? real(surface.delta[j]) : Real(0),
+                real(surface.depth[j]),
+                real(curvature[j]),
+                real(surface.colour_gradient[j]),
                 real(surface.normal[j])};
     }
-    bool ignores(const Far& j) const { return j.liquid == 0; }
+    bool ignores(const Far& j) const { return j.metal == 0; }
     void add(const Near& i, const Far& j, const Pair& pair, Sum& sum) const
     {
         (j.primary != 0 ? sum.primary : sum.other) += pair.kernel;

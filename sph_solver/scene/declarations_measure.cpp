@@ -64,6 +64,8 @@ const std::vector<MeasureDeclaration>& measure_declarations()
         {"oscillation_period", "s", "period of a drop's oscillation; the exact one is without viscosity", computed},
         {"wave_error", "1", "root mean square of a capillary wave's amplitude less the exact one, over the first",
          zero},
+        {"film_unevenness", "1", "root mean square of what a film's depth differs by from its mean, over the mean",
+         zero},
         {"drop_velocity", "m/s", "velocity of a drop's centroid along the temperature gradient", computed},
         {"start_up_error", "1",
          "greatest difference of a drop's velocity to that of an unbounded start from rest, over its limit", zero},

@@ -204,6 +204,39 @@ def test_a_domain_of_three_quarters_of_a_wave_is_refused():
         find_measure("wave_error").read(Snapshot(waving("lattice", 1.0 / 16.0, 0.0, 0.0025), case))
 
 
+# -- film ---------------------------------------------------------------------------------------------------------------------
+
+def film(form, spacing, crest):
+    """A film a quarter deep with the wave a = `crest` of half the domain's length on it, solid as deep below it."""
+    above = waving(form, spacing, 0.0, 0.0, 0.25)
+    if form == "lattice":
+        points = above.position.copy()
+        points[:, 0] -= crest / 0.25 / (4.0 * np.pi) * np.sin(4.0 * np.pi * points[:, 0])   # depth 0.25 + crest cos(4 pi x)
+        above = replace(above, position=points)
+    solid = lattice([0, 0, -0.25], [1, 0, 0], spacing, 2)
+    below = particles(solid, spacing, 2) if form == "lattice" else filled("cells", [0, 0, -0.25], [1, 0, 0], spacing, 0.0)
+    both = replace(above, **{name: np.concatenate([getattr(below, name), getattr(above, name)])
+                             for name in ("position", "fraction", "volume", "extent") if getattr(above, name, None) is not None})
+    return replace(both, liquid_fraction=np.repeat([0.0, 1.0], [below.count, above.count]))
+
+
+@pytest.mark.parametrize("form", ["lattice", "cells"])
+def test_an_even_film_on_its_solid_is_even(form):
+    reading = find_measure("film_unevenness").read(Snapshot(film(form, 1.0 / 16.0, 0.0), wave_case(1.0 / 16.0, 0.25)))
+    assert reading.value < 1e-12 and reading.beside["mean_depth_m"] == pytest.approx(0.25)
+
+
+def test_a_film_with_a_wave_is_uneven_by_its_root_mean_square():
+    reading = find_measure("film_unevenness").read(Snapshot(film("lattice", 1.0 / 64.0, 0.025), wave_case(1.0 / 64.0, 0.25)))
+    assert reading.value == pytest.approx(0.1 / np.sqrt(2.0), rel=0.01)
+
+
+def test_a_film_of_nothing_is_refused():
+    frozen = replace(film("lattice", 1.0 / 16.0, 0.0), liquid_fraction=np.zeros(128))
+    with pytest.raises(MeasureError, match="nothing is molten"):
+        find_measure("film_unevenness").read(Snapshot(frozen, wave_case(1.0 / 16.0, 0.25)))
+
+
 # -- melting front ------------------------------------------------------------------------------------------------------------
 
 STEEL = {"density": 6900.0, "specific_heat": 780.0, "conductivity": 25.0, "latent_heat": 247000.0, "melting_temperature": 1723.0}

@@ -7,6 +7,7 @@
 #include "models/density_diffusion.hpp"
 #include "models/density_summation.hpp"
 #include "models/equation_of_state.hpp"
+#include "models/metal_surface.hpp"
 #include "models/momentum.hpp"
 #include "models/normal_of_depth.hpp"
 #include "models/packing.hpp"
@@ -14,7 +15,6 @@
 #include "models/shifting_exchange.hpp"
 #include "models/surface_forces.hpp"
 #include "models/surface_geometry.hpp"
-#include "models/surface_load.hpp"
 #include "models/surface_pressure.hpp"
 #include "models/surface_stress.hpp"
 #include "models/transport_velocity.hpp"
@@ -486,7 +486,8 @@ TEST_P(FlowModels, ShiftingConservesMassAndMovesNothingAtRest)
                                    &gradient,
                                    surface_delta,
                                    shift,
-                                   speed});
+                                   speed,
+                                   nullptr});
     };
     shifting();
     for (Index i = 0; i < particles.count(); ++i)
@@ -551,7 +552,7 @@ TEST_P(FlowModels, PackingRaisesDensityWhereVolumesOverlap)
         if (norm(particles.position[i] - middle) < norm(particles.position[inner] - middle)) inner = i;
     const double lattice = sum_over_lattice(block.kernel, 1.0, GetParam());
     EXPECT_NEAR(lattice, 1.0, 1e-3);
-    const Packing packing{{block.mobility}, 2.0, lattice, speed, particles.density, rate};
+    const Packing packing{{block.mobility}, 2.0, lattice, speed, nullptr, particles.density, rate};
     for (const double overlap : {-0.03, 0.0, 0.02}) {
         for (Index i = 0; i < particles.count(); ++i)
             particles.volume[i] = (1.0 + overlap) * 1.0;
@@ -707,38 +708,82 @@ TEST_P(FlowModels, NormalOfALinearDepthIsExactHoweverParticlesLie)
         EXPECT_TRUE(surface.delta[i] == 0.0 || norm(surface.smoothed_normal[i] - by_colour) < 1e-12);
 }
 
-TEST_P(FlowModels, LoadThatGrowsAlongAFlatSurfaceHasThatGradient)
+TEST_P(FlowModels, SolidsWithLiquidWithinReachTakePartInTheSurface)
 {
     Block block(GetParam(), 12, 0.0);
     Particles& particles = block.particles;
-    ScalarField& delta = particles.add_scalar({"delta", "1/m"});
-    ScalarField& load = particles.add_scalar({"load", "Pa"});
-    ScalarField& mean = particles.add_scalar({"mean", "Pa"});
-    VectorField& normal = particles.add_vector({"normal", "1"});
-    VectorField& gradient = particles.add_vector({"gradient", "Pa/m"});
-    for (Index i = 0; i < particles.count(); ++i) {
-        delta[i] = 1.0;
-        normal.set(i, {0.0, 0.0, 1.0});
-        load[i] = 20.0 + particles.position[i].x + 5.0 * particles.position[i].z;
-    }
-    block.run(SurfaceLoad{{block.mobility}, delta, normal, load, mean, gradient});
+    ScalarField& metal = particles.add_scalar({"metal", "1"});
+    // Liquid above z = 6 on solid; walls at the sides. A kernel reaches three spacings: rows at 5.5, 4.5 and 3.5.
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
-        const auto inside = [](double x) { return x > 3.0 && x < 9.0; };
-        if (!inside(p.x) || !inside(p.z) || (GetParam() == 3 && !inside(p.y))) continue;
-        EXPECT_NEAR(mean[i], load[i], 1e-10);
-        // The kernel's own gradient on a lattice is exact to 0.1 %; of the change along the normal nothing is kept.
-        EXPECT_NEAR(norm(gradient[i] - Vector{1.0, 0.0, 0.0}), 0.0, 2e-3);
+        const bool liquid = p.z > 6.0, wall = !liquid && p.x < 1.0;
+        block.mobility[i] = liquid ? 1.0 : 0.0;
+        particles.kind[static_cast<std::size_t>(i)] = liquid ? Kind::fluid : wall ? Kind::wall : Kind::solid;
+        metal[i] = -1.0;
     }
+    for_each_pair(block.neighbourhood.list(), particles, block.kernel, block.neighbourhood.all(),
+                  SolidBesideLiquid{{block.mobility}, particles.kind, metal});
+    for (Index i = 0; i < particles.count(); ++i) {
+        const bool solid = particles.kind[static_cast<std::size_t>(i)] == Kind::solid;
+        EXPECT_EQ(metal[i], !solid ? -1.0 : particles.position[i].z > 3.4 ? 1.0 : 0.0) << particles.position[i].z;
+    }
+}
+
+TEST_P(FlowModels, WhatLiesBelowAnotherIsNotExposed)
+{
+    Block block(GetParam(), 12, 0.0);
+    Particles& particles = block.particles;
+    const SurfaceFields surface = SurfaceFields::register_in(particles);
+    ScalarField& exposure = particles.add_scalar({"exposure", "1"});
+    // A valley whose sides fall at 40 degrees to x = 6, and a flat top beside it: what lies above them is taken away.
+    const auto height = [](double x) { return 8.0 + std::tan(0.7) * std::min(std::abs(x - 6.0), 3.0); };
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector p = particles.position[i];
+        surface.delta[i] = p.z < height(p.x) ? 1.0 : 0.0;
+        surface.normal.set(i, {0.0, 0.0, 1.0});
+    }
+    block.run(Exposure{{block.mobility}, 0.5, block.kernel(1.0).value, surface, exposure});
+    int top = 0, below = 0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        const Vector p = particles.position[i];
+        const double depth = height(p.x) - p.z;
+        EXPECT_EQ(exposure[i], depth >= 0.0 && depth < 1.0 ? 1.0 : 0.0) << p.x << " " << p.z;
+        (depth < 1.0 ? top : below) += depth >= 0.0 ? 1 : 0;
+    }
+    EXPECT_EQ(top, GetParam() == 2 ? 12 : 144);
+    EXPECT_GT(below, 5 * top);
+}
+
+TEST_P(FlowModels, InTheBandVolumesThatOverlapMakeDensityGrowAndGapsDoNot)
+{
+    Block block(GetParam(), 12, 0.0);
+    Particles& particles = block.particles;
+    ScalarField& speed = particles.add_scalar({"speed", "m/s"});
+    ScalarField& of_band = particles.add_scalar({"of_band", "m/s"}, 2.0);
+    ScalarField& rate = particles.add_scalar({"rate", "kg/(m3 s)"});
+    for (Index i = 0; i < particles.count(); ++i) {
+        of_band[i] = 2.0;
+        particles.position.set(i, 0.99 * particles.position[i]);
+    }
+    block.neighbourhood.rebuild(particles, block.mobility);
+    block.run(Packing{{block.mobility}, 1.0, 1.0, speed, &of_band, particles.density, rate});
+    double greatest = 0.0;
+    for (Index i = 0; i < particles.count(); ++i) {
+        EXPECT_GE(rate[i], 0.0); // at the block's faces kernels are not full
+        greatest = std::max(greatest, rate[i]);
+    }
+    // Inside, C = 0.99⁻ᵈ.
+    EXPECT_NEAR(greatest, 2.0 * (std::pow(0.99, -GetParam()) - 1.0), 2e-4);
+    block.run(Packing{{block.mobility}, 1.0, 1.0, speed, nullptr, particles.density, rate});
+    for (Index i = 0; i < particles.count(); ++i)
+        EXPECT_EQ(rate[i], 0.0);
 }
 
 TEST(SurfaceForces, PointWhereTheyShould)
 {
     const Vector up{0, 0, 1};
     // A drop (κ > 0 with n̂ out of it) is pressed together, and metal is drawn to the cold side.
-    EXPECT_DOUBLE_EQ(surface_load_force(2.0, {}, 0.0, up, 3.0).z, -6.0);
-    // Where the load is greater on the right, so is the pressure below it: it drives to the left.
-    EXPECT_DOUBLE_EQ(surface_load_force(2.0, {4.0, 0.0, 0.0}, 0.5, up, 3.0).x, -6.0);
+    EXPECT_DOUBLE_EQ(surface_load_force(2.0, up, 3.0).z, -6.0);
     const Vector f = marangoni_force(-4e-4, {1000.0, 0.0, 500.0}, up, 2.0);
     EXPECT_DOUBLE_EQ(f.x, -0.8);
     EXPECT_DOUBLE_EQ(f.z, 0.0);
