@@ -108,8 +108,13 @@ void SurfaceTracker::find_solids(const Neighbourhood& neighbourhood)
     solids_.clear();
     for (const Index c : neighbourhood.standing()) {
         const Cluster& cluster = list.cluster(c);
-        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i)
-            if (beside.is_solid(i)) (*solid_share_)[i] > 0.0 ? solids_.push_back(i) : reset(i);
+        for (Index i = cluster.first; i < cluster.first + cluster.count; ++i) {
+            if (!beside.is_solid(i)) continue;
+            if ((*solid_share_)[i] > 0.0)
+                solids_.push_back(i);
+            else
+                reset(i);
+        }
     }
     for_each_pair(list, particles_, kernel_, neighbourhood.standing(), ColourGradient<false>{bounded_, h_, fields_});
 }
