@@ -103,7 +103,7 @@ void SurfaceTracker::find_solids(const Neighbourhood& neighbourhood)
         }
     }
     const NeighbourList& list = neighbourhood.list();
-    const SolidBesideLiquid beside{mobility_, particles_.kind, *solid_share_};
+    const SolidBesideLiquid beside{mobility_, particles_.kind, h_, *solid_share_};
     for_each_pair(list, particles_, kernel_, neighbourhood.standing(), beside);
     solids_.clear();
     for (const Index c : neighbourhood.standing()) {
@@ -116,7 +116,8 @@ void SurfaceTracker::find_solids(const Neighbourhood& neighbourhood)
                 reset(i);
         }
     }
-    for_each_pair(list, particles_, kernel_, neighbourhood.standing(), ColourGradient<false>{bounded_, h_, fields_});
+    for_each_pair(list, particles_, kernel_, neighbourhood.standing(),
+                  ColourGradientOfSolids{{bounded_, h_, fields_}, mobility_});
 }
 
 /// Near a free surface only what has a neighbour at the surface itself belongs to it.
@@ -124,7 +125,7 @@ void SurfaceTracker::find_band(const Neighbourhood& neighbourhood)
 {
     if (two_phase_) return;
     for_each_pair(neighbourhood.list(), particles_, kernel_, clusters(neighbourhood),
-                  SurfaceNeighbourhood{bounded_, fields_});
+                  SurfaceNeighbourhood{bounded_, (solid_share_ ? 2.9 : 4.0) * h_, fields_});
     for_each_bounded(neighbourhood, [&](Index i) {
         const bool near_surface = fields_.in_band[i] != 0.0 || fields_.raw_curvature[i] > 0.0;
         if (!near_surface || is_spray(i)) fields_.delta[i] = 0.0;

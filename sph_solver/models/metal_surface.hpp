@@ -18,12 +18,14 @@ namespace cupel::inline CUPEL_ENGINE
 /// the liquid has, and the load that belongs to them (surface_pressure.hpp). Melt whose solid has no part in the
 /// surface stops at some 60 degrees (validation_cases/melt_on_solid). Own derivation.
 ///
-/// Who takes part:   m_i = 1 for a solid with liquid within the kernel's reach, Σ_j W_ij > 0 over what moves; else 0
+/// Who takes part:   m_i = 1 for a solid with liquid within 2.9 h, else 0. (A kernel reaches 3 h, where a lattice has
+/// neighbours: round-off would decide.)
 struct SolidBesideLiquid
 {
     Mobility mobility;
     const std::vector<Kind>& kind;
-    ScalarField& metal; ///< m; 1 where liquid, 0 in walls
+    double smoothing_length; ///< h, m
+    ScalarField& metal;      ///< m; 1 where liquid, 0 in walls
 
     struct Near
     {};
@@ -47,7 +49,11 @@ struct SolidBesideLiquid
     Near near(Index) const { return {}; }
     Far far(Index j) const { return {real(mobility.weight[j])}; }
     bool ignores(const Far& j) const { return j.liquid == 0; }
-    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const { sum.liquid += j.liquid * pair.kernel; }
+    void add(const Near&, const Far&, const Pair& pair, Sum& sum) const
+    {
+        const double reach = 2.9 * smoothing_length;
+        sum.liquid += select(pair.square < reach * reach, 1.0, 0.0);
+    }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         for (int lane = 0; lane < cluster.count; ++lane) {
@@ -57,15 +63,31 @@ struct SolidBesideLiquid
     }
 };
 
-/// What of a particle's sky is free, by what lies within 45 degrees of its normal, counted in neighbours at one
+/// The colour gradient of those solids. That of the liquid is found before densities change: in a cluster that holds
+/// both it is left alone, or what it is would depend on how particles are sorted.
+struct ColourGradientOfSolids : ColourGradient<false>
+{
+    Mobility liquid;
+
+    void store(const Cluster& cluster, const Near&, const Sum& sum) const
+    {
+        const unsigned solids = mobility.moving_in(cluster) & ~liquid.moving_in(cluster);
+        store_lanes(surface.colour_gradient, cluster.first, solids, sum.gradient);
+        store_lanes(surface.smoothed_colour, cluster.first, solids, sum.colour);
+        store_lanes(surface.companions, cluster.first, solids, sum.companions);
+    }
+};
+
+/// What of a particle's sky is free, by what lies within 40 degrees of its normal, counted in neighbours at one
 /// spacing:
 ///
-///   C_i = Σ_j V_j W_ij / (V₀ W(Δx)) over j of the band with n̂_i·(x_j − x_i) > r/√2,   e_i = clamp((3/4 − C_i)/(1/2))
+///   C_i = Σ_j V_j W_ij / (V₀ W(Δx)) over j of the band with n̂_i·(x_j − x_i) > 0.76 r,   e_i = clamp((3/4 − C_i)/(1/2))
 ///
 /// It decides who is of the surface's first layer (share_of_surface). In a concave edge, where a front of melt meets
 /// its solid or another, kernels are so full that what is at the surface looks two spacings deep; by depth its
 /// curvature did not count, and melt came to rest with a front of 30 degrees. The normal is smoothed; the thresholds
-/// are a half about a half, where a second layer has at least one.      [1]
+/// are a half about a half, where a second layer has at least one. The angle is one at which a lattice has no
+/// neighbours (35, 45 degrees): on it round-off would decide who counts.      [1]
 struct Exposure
 {
     Mobility mobility;
@@ -94,7 +116,7 @@ struct Exposure
     void add(const Near& i, const Far&, const Pair& pair, Sum& sum) const
     {
         const Lanes above = -dot(pair.offset, i.normal);
-        const LaneMask covers = (above > 0.0) & (above * above > 0.5 * pair.square);
+        const LaneMask covers = (above > 0.0) & (above * above > (0.76 * 0.76) * pair.square);
         sum.cover += select(covers, pair.volume_kernel, 0.0);
     }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const

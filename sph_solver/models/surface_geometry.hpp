@@ -193,6 +193,8 @@ struct NormalSmoothing
 struct SurfaceNeighbourhood
 {
     Mobility mobility;
+    double reach; ///< how far a neighbour may be, m; among solids, which keep their lattice, not as far as one of its
+                  ///< distances, or round-off would decide
     SurfaceFields surface;
 
     struct Near
@@ -215,7 +217,10 @@ struct SurfaceNeighbourhood
     Near near(Index) const { return {}; }
     Far far(Index j) const { return {real(mobility.weight[j] * surface.in_band[j])}; }
     bool ignores(const Far& j) const { return j.at_surface == 0; }
-    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const { sum.found += j.at_surface * pair.kernel; }
+    void add(const Near&, const Far& j, const Pair& pair, Sum& sum) const
+    {
+        sum.found += select(pair.square < reach * reach, j.at_surface * pair.kernel, 0.0);
+    }
     void store(const Cluster& cluster, const Near&, const Sum& sum) const
     {
         // raw_curvature is free at this stage and keeps the mark until the curvature itself is fitted.

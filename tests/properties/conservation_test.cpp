@@ -80,18 +80,25 @@ TEST(Conservation, DensitiesAreFoundHalfWayOnTheAverage)
 
 TEST(Conservation, BooksCloseWhereMetalMeltsFlowsBoilsAndFreezes)
 {
-    Simulation simulation(place_particles(melt_pool()));
-    simulation.start();
-    for (int step = 0; step < 600; ++step)
-        simulation.step(1.0);
-    const MechanicalWork& work = simulation.flow()->books();
-    const Ledger ledger = simulation.mechanical_ledger();
-    EXPECT_LT(work.mush, 0.0);
-    EXPECT_LT(work.stops, 0.0);
-    EXPECT_NE(work.imbalance, 0.0);
-    const double all = ledger.in - ledger.out + work.pressure + work.compression - work.imbalance;
-    EXPECT_NEAR(ledger.end - ledger.start, all, 1e-12 * ledger.in);
-    EXPECT_LT(ledger.closure(), 1e-3);
+    for (const char* load : {"carried", "continuum_force"}) {
+        Case definition = melt_pool();
+        definition.numerics.surface_load = load;
+        Simulation simulation(place_particles(definition));
+        simulation.start();
+        for (int step = 0; step < 600; ++step)
+            simulation.step(1.0);
+        const MechanicalWork& work = simulation.flow()->books();
+        const Ledger ledger = simulation.mechanical_ledger();
+        EXPECT_LT(work.mush, 0.0);
+        EXPECT_LT(work.stops, 0.0);
+        EXPECT_NE(work.imbalance, 0.0);
+        EXPECT_LT(ledger.closure(), 1e-3) << load;
+        // Where the load is carried, the imbalance holds the rate that replaces the surface's own as well, which is a
+        // change of density and to be counted: the sum of all causes is known to the last digit without it alone.
+        if (std::string(load) == "carried") continue;
+        const double all = ledger.in - ledger.out + work.pressure + work.compression - work.imbalance;
+        EXPECT_NEAR(ledger.end - ledger.start, all, 1e-12 * ledger.in);
+    }
 }
 
 } // namespace

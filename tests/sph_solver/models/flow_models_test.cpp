@@ -713,7 +713,7 @@ TEST_P(FlowModels, SolidsWithLiquidWithinReachTakePartInTheSurface)
     Block block(GetParam(), 12, 0.0);
     Particles& particles = block.particles;
     ScalarField& metal = particles.add_scalar({"metal", "1"});
-    // Liquid above z = 6 on solid; walls at the sides. A kernel reaches three spacings: rows at 5.5, 4.5 and 3.5.
+    // Liquid above z = 6 on solid; walls at the sides. Within 2.9 spacings: rows at 5.5 and 4.5.
     for (Index i = 0; i < particles.count(); ++i) {
         const Vector p = particles.position[i];
         const bool liquid = p.z > 6.0, wall = !liquid && p.x < 1.0;
@@ -722,10 +722,10 @@ TEST_P(FlowModels, SolidsWithLiquidWithinReachTakePartInTheSurface)
         metal[i] = -1.0;
     }
     for_each_pair(block.neighbourhood.list(), particles, block.kernel, block.neighbourhood.all(),
-                  SolidBesideLiquid{{block.mobility}, particles.kind, metal});
+                  SolidBesideLiquid{{block.mobility}, particles.kind, 1.0, metal});
     for (Index i = 0; i < particles.count(); ++i) {
         const bool solid = particles.kind[static_cast<std::size_t>(i)] == Kind::solid;
-        EXPECT_EQ(metal[i], !solid ? -1.0 : particles.position[i].z > 3.4 ? 1.0 : 0.0) << particles.position[i].z;
+        EXPECT_EQ(metal[i], !solid ? -1.0 : particles.position[i].z > 4.4 ? 1.0 : 0.0) << particles.position[i].z;
     }
 }
 
