@@ -214,7 +214,7 @@ def test_a_limit_on_file_size_ends_the_run_in_one_line_and_it_goes_on_without_it
     """A full disk that every user can have on every system: the history outgrows what the process may write."""
     case, whole, _ = long_run
     folder = tmp_path / "run"
-    size = (whole / "history.csv").stat().st_size * 2 // 3
+    size = (whole / "history.csv").stat().st_size * 3 // 4
     assert size > 1.2 * newest_checkpoint(whole).stat().st_size, "a checkpoint would be refused first"
 
     def limit():
