@@ -16,7 +16,7 @@ namespace cupel::inline CUPEL_ENGINE
 /// along the solid, where it does not. Melt so spreads on what it froze from until its surface is smooth. Of that
 /// curvature particles have what they see: a solid beside liquid therefore has a normal, a depth and a curvature, as
 /// the liquid has, and the load that belongs to them (surface_pressure.hpp). Melt whose solid has no part in the
-/// surface stops at some 60 degrees (validation_cases/melt_on_solid). Own derivation.
+/// surface stops at some 70 degrees (validation_cases/melt_on_solid). Own derivation.
 ///
 /// Who takes part:   m_i = 1 for a solid with liquid within 2.9 h, else 0. (A kernel reaches 3 h, where a lattice has
 /// neighbours: round-off would decide.)
